@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A frame: the state at one time, as gdesp-run writes it and surge-analyze reads it (docs/formats/frames.md).
+// A run folder holds case.link (the case's absolute path), frames/fluid_00012.vtp, grains_00012.vtp,
+// bodies_00012.vtp (moved surfaces), fluid.pvd grains.pvd bodies.pvd, log.ndjson, run.json.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "particles/particle_tables.hpp"
+
+namespace gdesp {
+
+struct BodyState { Vec3d centre, velocity, angular_velocity; double orientation[4] = {1, 0, 0, 0}; };
+
+struct Frame {
+  double time = 0.0;               ///< s
+  std::int64_t step = 0;
+  FluidTable fluid;
+  GrainTable grains;
+  TriangleTable bodies;            ///< surfaces of moving bodies, at their place now
+  std::vector<BodyState> body_states;
+};
+
+/// Where one frame's parts lie; empty where there is no such part.
+struct FramePaths { std::string fluid, grains, bodies; double time = 0.0; std::int64_t step = 0; };
+
+/// Writes frames of one run, each part aside and renamed when complete, and keeps the .pvd series up to date.
+/// VTP, inline binary, which every ParaView reads. Field names: velocity, density, pressure, porosity, id;
+/// diameter, angular_velocity, group. Positions: case coordinates, float64 (ParaView shows the offset in field data).
+class FrameWriter {
+ public:
+  /// `offset` goes into each file as field data, with the time and dp.
+  FrameWriter(std::string run_folder, Vec3d offset, double dp, bool force, bool resume);
+  FramePaths write(const Frame& frame);
+  const std::string& folder() const { return folder_; }
+
+ private:
+  std::string folder_;
+  Vec3d offset_;
+  double dp_;
+  int next_ = 0;
+  std::vector<FramePaths> written_;
+};
+
+/// Maps this project's field names to another program's: {"velocity", "Vel"}.
+struct FieldMapping { std::string ours, theirs; };
+
+/// What a particle file says beside its particles.
+struct FrameMeta { double time = 0.0; double dp = 0.0; Vec3d offset; bool has_time = false; };
+
+/// Reads fluid (or grain) particles from VTP, VTU, legacy VTK or an OpenVDB points file, own or foreign.
+FluidTable read_fluid_frame(const std::string& path, const std::vector<FieldMapping>& mapping, FrameMeta* meta);
+GrainTable read_grain_frame(const std::string& path, const std::vector<FieldMapping>& mapping, FrameMeta* meta);
+TriangleTable read_triangles_vtp(const std::string& path);
+
+/// The frames of a finished or running run folder, in time order.
+std::vector<FramePaths> list_frames(const std::string& run_folder);
+/// The case a run belongs to (absolute path).
+std::string run_case_path(const std::string& run_folder);
+
+}  // namespace gdesp

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Particles on the host, as files carry them and as a simulation is started and read: one vector per quantity,
+// SI units, positions in case coordinates (scene coordinates minus the case's offset). Vectors that a producer
+// has nothing to say for stay empty; a consumer takes the default named here.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/vec3.hpp"
+
+namespace gdesp {
+
+/// Fluid particles. All carry the mass reference_density * dp^dimensions.
+struct FluidTable {
+  std::vector<Vec3d> position;      ///< m
+  std::vector<Vec3f> velocity;      ///< m/s; default 0
+  std::vector<float> density;       ///< kg/m3, true (not superficial); default: hydrostatic, set by the solver
+  std::vector<float> pressure;      ///< Pa; output only
+  std::vector<float> porosity;      ///< fluid volume share; output only
+  std::vector<std::uint32_t> id;    ///< default 0..n-1
+};
+
+/// Boundary particles: the walls as the fluid sees them, in layers of spacing dp below the surface.
+struct BoundaryTable {
+  std::vector<Vec3d> position;    ///< m
+  std::vector<Vec3f> normal;      ///< unit, from the wall into the fluid; 0 where unknown
+  std::vector<float> depth;       ///< m below the wall surface, > 0
+  std::vector<std::int32_t> body; ///< 0: at rest; k > 0: moves with bodies[k - 1]
+  std::vector<Vec3f> velocity;    ///< m/s; output only
+  std::vector<float> pressure;    ///< Pa; output only
+};
+
+/// Grains (discrete element method): spheres, or discs of unit length in two dimensions.
+struct GrainTable {
+  std::vector<Vec3d> position;            ///< m
+  std::vector<float> diameter;            ///< m
+  std::vector<float> density;             ///< kg/m3
+  std::vector<Vec3f> velocity;            ///< m/s; default 0
+  std::vector<Vec3f> angular_velocity;    ///< rad/s; default 0
+  std::vector<std::int32_t> group;        ///< index into the scene's slides; default 0
+  std::vector<std::uint32_t> id;          ///< default 0..n-1
+  std::vector<float> porosity;            ///< of the mixture at the grain; output only
+};
+
+/// A surface of triangles. Outward normal by the right-hand rule (from solid to fluid).
+struct TriangleTable {
+  std::vector<Vec3d> vertex;                       ///< m
+  std::vector<Vec3<std::int32_t>> triangle;        ///< vertex indices
+  std::vector<std::int32_t> body;                  ///< per triangle: 0 at rest, k > 0 moves with bodies[k - 1]
+};
+
+/// Prescribed motion: displacement as a piecewise linear function of time, constant beyond its ends.
+struct PrescribedMotion {
+  std::vector<double> time;          ///< s, increasing
+  std::vector<Vec3d> displacement;   ///< m
+  double remove_at = -1.0;           ///< s; the body vanishes then; < 0: never
+};
+
+enum class BodyKind { prescribed, free };
+
+/// A rigid body: gate, piston, rigid slide, floating box. Its particles and triangles name it by number.
+struct Body {
+  std::string name;
+  BodyKind kind = BodyKind::prescribed;
+  PrescribedMotion motion;         ///< prescribed only
+  double mass = 0.0;               ///< kg; free only (as the next four)
+  Vec3d centre;                    ///< m, centre of mass
+  Vec3d velocity;                  ///< m/s
+  Vec3d angular_velocity;          ///< rad/s
+  double inertia[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0};  ///< kg m2, about the centre, row by row
+};
+
+}  // namespace gdesp
