@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Sixteen lanes: the pairs of four i particles with four j particles, lane = 4 * i + j. On the CPU the lanes are
+// one AVX-512 register (two AVX2 registers); on a GPU they are half a warp. Pair functors are written once, on the
+// type Lanes::Real, with the free functions below instead of branches on data.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#include "core/host_device.hpp"
+#include "exec/backend.hpp"
+
+namespace gdesp::exec {
+
+/// Particles in a cluster.
+inline constexpr Index cluster_size = 4;
+
+// One real lane (GPU).
+GDESP_HD inline float max(float a, float b) { return a > b ? a : b; }
+GDESP_HD inline float min(float a, float b) { return a < b ? a : b; }
+GDESP_HD inline float sqrt(float a) { return ::sqrtf(a); }
+GDESP_HD inline float select(bool c, float a, float b) { return c ? a : b; }
+
+#if !defined(__CUDACC__)
+
+/// Sixteen floats side by side.
+struct Float16 {
+  typedef float Vector __attribute__((vector_size(64)));
+  typedef int Mask __attribute__((vector_size(64)));
+  Vector v;
+
+  Float16() = default;
+  Float16(Vector x) : v(x) {}
+  Float16(float x) : v(x - Vector{}) {}
+  Float16& operator+=(const Float16& b) { v += b.v; return *this; }
+  Float16& operator-=(const Float16& b) { v -= b.v; return *this; }
+};
+
+inline Float16 operator+(const Float16& a, const Float16& b) { return a.v + b.v; }
+inline Float16 operator-(const Float16& a, const Float16& b) { return a.v - b.v; }
+inline Float16 operator*(const Float16& a, const Float16& b) { return a.v * b.v; }
+inline Float16 operator/(const Float16& a, const Float16& b) { return a.v / b.v; }
+inline Float16 operator-(const Float16& a) { return -a.v; }
+inline Float16::Mask operator<(const Float16& a, const Float16& b) { return a.v < b.v; }
+inline Float16::Mask operator>(const Float16& a, const Float16& b) { return a.v > b.v; }
+inline Float16 max(const Float16& a, const Float16& b) { return a.v > b.v ? a.v : b.v; }
+inline Float16 min(const Float16& a, const Float16& b) { return a.v < b.v ? a.v : b.v; }
+inline Float16 select(const Float16::Mask& c, const Float16& a, const Float16& b) { return c ? a.v : b.v; }
+inline Float16 sqrt(const Float16& a) {
+  Float16 r;
+  for (int k = 0; k < 16; ++k) r.v[k] = __builtin_sqrtf(a.v[k]);
+  return r;
+}
+
+struct HostLanes {
+  using Real = Float16;
+  using Mask = Float16::Mask;
+
+  /// p[i] of the four i particles, each in its four lanes.
+  static Real load_i(const float* p) {
+    return Float16(Float16::Vector{p[0], p[0], p[0], p[0], p[1], p[1], p[1], p[1], p[2], p[2], p[2], p[2], p[3],
+                                   p[3], p[3], p[3]});
+  }
+  /// p[j] of the four j particles, in every fourth lane.
+  static Real load_j(const float* p) {
+    typedef float Quarter __attribute__((vector_size(16)));
+    Quarter q;
+    std::memcpy(&q, p, sizeof(q));
+    return Float16(__builtin_shufflevector(q, q, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3));
+  }
+  /// p[i] = sum of the four lanes of i, in the order (0 + 1) + (2 + 3).
+  static void store_sum_i(float* p, const Real& a) {
+    for (int i = 0; i < 4; ++i) p[i] = (a.v[4 * i] + a.v[4 * i + 1]) + (a.v[4 * i + 2] + a.v[4 * i + 3]);
+  }
+  /// p[i] = largest of the four lanes of i.
+  static void store_max_i(float* p, const Real& a) {
+    for (int i = 0; i < 4; ++i) p[i] = max(max(a.v[4 * i], a.v[4 * i + 1]), max(a.v[4 * i + 2], a.v[4 * i + 3]));
+  }
+  static bool any(const Mask& m) {
+#if defined(__AVX512F__)
+    return __builtin_ia32_ptestmd512(reinterpret_cast<const V16si&>(m), reinterpret_cast<const V16si&>(m), 0xffff) != 0;
+#else
+    long long bits = 0;
+    long long words[8];
+    std::memcpy(words, &m, sizeof(words));
+    for (long long w : words) bits |= w;
+    return bits != 0;
+#endif
+  }
+  /// True in the lane that writes for its cluster.
+  static constexpr bool leader() { return true; }
+  /// Takes `amount` places from a counter that all clusters share; returns the first.
+  static std::uint32_t allocate(std::uint32_t* counter, std::uint32_t amount) {
+    return __atomic_fetch_add(counter, amount, __ATOMIC_RELAXED);
+  }
+
+ private:
+  typedef int V16si __attribute__((vector_size(64)));
+};
+#endif
+
+}  // namespace gdesp::exec

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A set of particles sorted for neighbour loops: by tile, then by pencil (a column of cells along x), then along x;
+// each pencil starts a new cluster of four. A particle's place in the sorted order is its slot; slots at pencil ends
+// are padding (FixedPosition with x = padding_mark, id = no_particle). Cells give the clusters near a point without
+// a search. Grains, fluid and wall particles are three sets with cells of their own size on the same tiles: the
+// dual grid of the paper.
+#pragma once
+
+#include "exec/parallel.hpp"
+#include "neighbors/domain.hpp"
+
+namespace gdesp {
+
+using exec::Array;
+using exec::Index;
+
+inline constexpr std::uint32_t no_particle = 0xffffffffu;
+
+/// What kernels see of the grid of a ClusterSet.
+struct CellGridView {
+  Domain domain;
+  Vec3<std::int32_t> cells;          ///< per tile and axis
+  Vec3f inverse_cell_size;           ///< 1/m
+  const Index* tile_slot;            ///< per dense tile number: storage slot, -1 when the tile holds no particle
+  const Index* cell_begin;           ///< [storage slot][pencil = cz * cells.y + cy][cell x 0..cells.x]: first slot
+  const Index* cluster_tile;         ///< per cluster: dense tile number
+  Index clusters;
+
+  /// Row of cells.x + 1 starts of a pencil.
+  GDESP_HD const Index* pencil(Index storage, std::int32_t cy, std::int32_t cz) const {
+    const std::int64_t row = (static_cast<std::int64_t>(storage) * cells.z + cz) * cells.y + cy;
+    return cell_begin + row * (cells.x + 1);
+  }
+};
+
+/// Sorts and indexes; the owner keeps its own arrays by slot and permutes them with `source()`.
+template <class Exec>
+class ClusterSet {
+ public:
+  ClusterSet() = default;
+  /// Cells of about `cell_size` metres (the largest whole share of a tile that is at least that).
+  ClusterSet(const Exec& exec, const Domain& domain, double cell_size);
+
+  /// Sorts. position[old], id[old] for old in [0, old_slots): padding (id = no_particle) and particles outside
+  /// the domain are left out. Afterwards source()[slot] is the old slot (or -1: padding), and the owner gathers.
+  void build(const Array<FixedPosition, Exec>& position, const Array<std::uint32_t, Exec>& id, Index old_slots);
+
+  Index slots() const { return slots_; }              ///< 4 x clusters
+  Index clusters() const { return slots_ / exec::cluster_size; }
+  Index particles() const { return particles_; }      ///< real ones
+  Index lost() const { return lost_; }                ///< left out by the last build because outside the domain
+  const Index* source() const { return source_.data(); }
+  CellGridView view() const;
+
+ private:
+  Exec exec_{};
+  Domain domain_;
+  Vec3<std::int32_t> cells_{1, 1, 1};
+  int x_bits_ = 0, pencil_bits_ = 0, tile_bits_ = 0;
+  Index slots_ = 0, particles_ = 0, lost_ = 0;
+  Array<std::uint64_t, Exec> keys_, keys_scratch_;
+  Array<Index, Exec> order_, order_scratch_, head_, ordinal_, pencil_first_, padded_begin_, padded_count_;
+  Array<Index, Exec> source_, tile_slot_, cell_begin_, cluster_tile_;
+};
+
+/// The slots of particles within `cutoff` of `p` lie in the clusters this visits: visit(first_cluster, last_cluster,
+/// offset) with last inclusive; offset * tile_size (m) brings their local coordinates into
+/// the frame of p's tile. The reach (m, along each axis) must be smaller than a tile.
+template <class Visit>
+GDESP_HD inline void for_each_candidate(const CellGridView& grid, const FixedPosition& p, float reach_x, float reach_y,
+                                        float reach_z, const Visit& visit);
+
+}  // namespace gdesp
+
+#include "neighbors/cluster_set.inl"
