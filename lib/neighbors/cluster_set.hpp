@@ -42,7 +42,8 @@ class ClusterSet {
   ClusterSet(const Exec& exec, const Domain& domain, double cell_size);
 
   /// Sorts. position[old], id[old] for old in [0, old_slots): padding (id = no_particle) and particles outside
-  /// the domain are left out. Afterwards source()[slot] is the old slot (or -1: padding), and the owner gathers.
+  /// the domain are left out. Afterwards source()[slot] is the old slot (or -1: padding), and the owner
+  /// gathers (with Domain::wrapped for positions).
   void build(const Array<FixedPosition, Exec>& position, const Array<std::uint32_t, Exec>& id, Index old_slots);
 
   Index slots() const { return slots_; }              ///< 4 x clusters
@@ -56,19 +57,20 @@ class ClusterSet {
   Exec exec_{};
   Domain domain_;
   Vec3<std::int32_t> cells_{1, 1, 1};
-  int x_bits_ = 0, pencil_bits_ = 0, tile_bits_ = 0;
+  int pencil_bits_ = 0, tile_bits_ = 0;
   Index slots_ = 0, particles_ = 0, lost_ = 0;
   Array<std::uint64_t, Exec> keys_, keys_scratch_;
-  Array<Index, Exec> order_, order_scratch_, head_, ordinal_, pencil_first_, padded_begin_, padded_count_;
+  Array<Index, Exec> order_, order_scratch_, head_, ordinal_, pencil_first_, padded_count_, padded_begin_;
+  Array<Index, Exec> tile_head_, tile_ordinal_;
   Array<Index, Exec> source_, tile_slot_, cell_begin_, cluster_tile_;
 };
 
-/// The slots of particles within `cutoff` of `p` lie in the clusters this visits: visit(first_cluster, last_cluster,
-/// offset) with last inclusive; offset * tile_size (m) brings their local coordinates into
-/// the frame of p's tile. The reach (m, along each axis) must be smaller than a tile.
+/// Particles within `cutoff` (m) of the box [low, high] (m, local to tile `tile`; a point is a box) lie in the
+/// clusters this visits: visit(first_cluster, last_cluster, offset), last inclusive. Adding offset * tile_size to the
+/// local coordinates of those clusters brings them into the frame of `tile`. The cutoff must be smaller than a tile.
 template <class Visit>
-GDESP_HD inline void for_each_candidate(const CellGridView& grid, const FixedPosition& p, float reach_x, float reach_y,
-                                        float reach_z, const Visit& visit);
+GDESP_HD inline void for_each_candidate(const CellGridView& grid, const Vec3<std::int32_t>& tile, const Vec3f& low,
+                                        const Vec3f& high, float cutoff, const Visit& visit);
 
 }  // namespace gdesp
 

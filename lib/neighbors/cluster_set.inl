@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Body of for_each_candidate: walks the pencils of the (at most 3 x 3 x 3) tiles around a point.
+// Body of for_each_candidate: walks the pencils of the (at most 3 x 3 x 3) tiles around a box.
 namespace gdesp {
-
-/// Along one axis: the tile offset (-1, 0, 1) and cells of one stretch of the reach around a point.
-struct CellRange {
-  std::int32_t offset, first, last;
-};
-
 namespace detail {
 
-// Cells [first, last] of tile offset o that lie within [low, high] (m, local to the point's tile).
-GDESP_HD inline CellRange cell_range(int o, float low, float high, float tile, float inverse_cell, std::int32_t cells) {
-  const float begin = (low - static_cast<float>(o) * tile) * inverse_cell;
-  const float end = (high - static_cast<float>(o) * tile) * inverse_cell;
-  CellRange range{o, 0, cells - 1};
-  if (begin > 0.0f) range.first = static_cast<std::int32_t>(begin < static_cast<float>(cells) ? begin : cells);
+struct CellRange {
+  std::int32_t first, last;
+};
+
+// Cells that overlap [low, high] (m, local to the tile of the cells).
+GDESP_HD inline CellRange cell_range(float low, float high, float inverse_cell, std::int32_t cells) {
+  const float begin = low * inverse_cell;
+  const float end = high * inverse_cell;
+  CellRange range{0, cells - 1};
+  if (begin > 0.0f) range.first = begin < static_cast<float>(cells) ? static_cast<std::int32_t>(begin) : cells;
   if (end < static_cast<float>(cells)) range.last = end < 0.0f ? -1 : static_cast<std::int32_t>(end);
   return range;
 }
@@ -30,39 +28,62 @@ GDESP_HD inline std::int32_t neighbour_tile(std::int32_t t, int o, std::int32_t 
   return (t < 0 || t >= tiles) ? -1 : t;
 }
 
+// Distance between the interval [low, high] and cell c of tile offset `shift` metres away.
+GDESP_HD inline float cell_distance(float low, float high, std::int32_t c, float cell_size, float shift) {
+  const float cell_low = shift + static_cast<float>(c) * cell_size;
+  const float below = cell_low - high, above = low - (cell_low + cell_size);
+  const float d = below > above ? below : above;
+  return d > 0.0f ? d : 0.0f;
+}
+
 }  // namespace detail
 
 template <class Visit>
-GDESP_HD inline void for_each_candidate(const CellGridView& grid, const FixedPosition& p, float reach_x, float reach_y,
-                                        float reach_z, const Visit& visit) {
+GDESP_HD inline void for_each_candidate(const CellGridView& grid, const Vec3<std::int32_t>& tile, const Vec3f& low,
+                                        const Vec3f& high, float cutoff, const Visit& visit) {
   const Domain& domain = grid.domain;
-  const float tile_x = static_cast<float>(domain.tile_size.x);
-  const float tile_y = static_cast<float>(domain.tile_size.y);
-  const float tile_z = static_cast<float>(domain.tile_size.z);
-  const float x = domain.local(p.x, 0), y = domain.local(p.y, 1), z = domain.local(p.z, 2);
+  const Vec3f size{static_cast<float>(domain.tile_size.x), static_cast<float>(domain.tile_size.y),
+                   static_cast<float>(domain.tile_size.z)};
+  const Vec3f cell{1.0f / grid.inverse_cell_size.x, 1.0f / grid.inverse_cell_size.y, 1.0f / grid.inverse_cell_size.z};
+  // Cell borders are computed in single precision: reach a thousandth of a cell further.
+  const float reach = cutoff + 1.0e-3f * (cell.y > cell.x ? cell.y : cell.x);
   for (int oz = -1; oz <= 1; ++oz) {
-    const CellRange rz = detail::cell_range(oz, z - reach_z, z + reach_z, tile_z, grid.inverse_cell_size.z, grid.cells.z);
+    const float shift_z = static_cast<float>(oz) * size.z;
+    const auto rz = detail::cell_range(low.z - reach - shift_z, high.z + reach - shift_z, grid.inverse_cell_size.z,
+                                       grid.cells.z);
     if (rz.first > rz.last) continue;
-    const std::int32_t tz = detail::neighbour_tile(Domain::tile_of(p.z), oz, domain.tiles.z, domain.periodic[2]);
+    const std::int32_t tz = detail::neighbour_tile(tile.z, oz, domain.tiles.z, domain.periodic[2]);
     if (tz < 0) continue;
     for (int oy = -1; oy <= 1; ++oy) {
-      const CellRange ry = detail::cell_range(oy, y - reach_y, y + reach_y, tile_y, grid.inverse_cell_size.y, grid.cells.y);
+      const float shift_y = static_cast<float>(oy) * size.y;
+      const auto ry = detail::cell_range(low.y - reach - shift_y, high.y + reach - shift_y, grid.inverse_cell_size.y,
+                                         grid.cells.y);
       if (ry.first > ry.last) continue;
-      const std::int32_t ty = detail::neighbour_tile(Domain::tile_of(p.y), oy, domain.tiles.y, domain.periodic[1]);
+      const std::int32_t ty = detail::neighbour_tile(tile.y, oy, domain.tiles.y, domain.periodic[1]);
       if (ty < 0) continue;
       for (int ox = -1; ox <= 1; ++ox) {
-        const CellRange rx = detail::cell_range(ox, x - reach_x, x + reach_x, tile_x, grid.inverse_cell_size.x, grid.cells.x);
-        if (rx.first > rx.last) continue;
-        const std::int32_t tx = detail::neighbour_tile(Domain::tile_of(p.x), ox, domain.tiles.x, domain.periodic[0]);
+        const float shift_x = static_cast<float>(ox) * size.x;
+        if (low.x - reach - shift_x > size.x || high.x + reach - shift_x < 0.0f) continue;
+        const std::int32_t tx = detail::neighbour_tile(tile.x, ox, domain.tiles.x, domain.periodic[0]);
         if (tx < 0) continue;
-        const Index storage = grid.tile_slot[(static_cast<std::int64_t>(tz) * domain.tiles.y + ty) * domain.tiles.x + tx];
+        const std::int64_t number = (static_cast<std::int64_t>(tz) * domain.tiles.y + ty) * domain.tiles.x + tx;
+        const Index storage = grid.tile_slot[number];
         if (storage < 0) continue;
-        const Vec3<std::int32_t> offset{ox, oy, oz};
         for (std::int32_t cz = rz.first; cz <= rz.last; ++cz) {
+          const float dz = detail::cell_distance(low.z, high.z, cz, cell.z, shift_z);
           for (std::int32_t cy = ry.first; cy <= ry.last; ++cy) {
+            const float dy = detail::cell_distance(low.y, high.y, cy, cell.y, shift_y);
+            const float rest = reach * reach - dz * dz - dy * dy;
+            if (rest < 0.0f) continue;
+            const float reach_x = ::sqrtf(rest);
+            const auto rx = detail::cell_range(low.x - reach_x - shift_x, high.x + reach_x - shift_x,
+                                               grid.inverse_cell_size.x, grid.cells.x);
+            if (rx.first > rx.last) continue;
             const Index* pencil = grid.pencil(storage, cy, cz);
             const Index begin = pencil[rx.first], end = pencil[rx.last + 1];
-            if (end > begin) visit(begin / exec::cluster_size, (end - 1) / exec::cluster_size, offset);
+            if (end > begin) {
+              visit(begin / exec::cluster_size, (end - 1) / exec::cluster_size, Vec3<std::int32_t>{ox, oy, oz});
+            }
           }
         }
       }

@@ -44,18 +44,34 @@ struct Domain {
             lower.y + static_cast<double>(p.y) * (tile_size.y / one_tile),
             lower.z + static_cast<double>(p.z) * (tile_size.z / one_tile)};
   }
-  /// Moves by a small displacement (m), wrapping along periodic axes.
+  /// Moves by a displacement (m). Does not wrap: that happens when particles are sorted anew (wrapped()).
   GDESP_HD FixedPosition moved(FixedPosition p, const Vec3d& by) const {
+    p.x += fixed_length(by.x, 0);
+    p.y += fixed_length(by.y, 1);
+    p.z += fixed_length(by.z, 2);
+    return p;
+  }
+  /// The image inside the period along periodic axes.
+  GDESP_HD FixedPosition wrapped(FixedPosition p) const {
     for (int axis = 0; axis < 3; ++axis) {
-      std::int64_t q = p[axis] + fixed_length(by[axis], axis);
-      if (periodic[axis]) {
-        const std::int64_t period = static_cast<std::int64_t>(tiles[axis]) << fraction_bits;
-        if (q < 0) q += period;
-        if (q >= period) q -= period;
-      }
-      p[axis] = q;
+      if (!periodic[axis]) continue;
+      const std::int64_t period = static_cast<std::int64_t>(tiles[axis]) << fraction_bits;
+      if (p[axis] < 0) p[axis] += period;
+      if (p[axis] >= period) p[axis] -= period;
     }
     return p;
+  }
+  /// m, relative to the origin of tile (tx, ty, tz), which need not be the particle's own.
+  GDESP_HD Vec3f relative_to_tile(const FixedPosition& p, const Vec3<std::int32_t>& tile) const {
+    Vec3f r;
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::int64_t d = p[axis] - (static_cast<std::int64_t>(tile[axis]) << fraction_bits);
+      r[axis] = static_cast<float>(static_cast<double>(d) * (tile_size[axis] / one_tile));
+    }
+    return r;
+  }
+  GDESP_HD Vec3<std::int32_t> tile_coordinates(std::int32_t number) const {
+    return {number % tiles.x, (number / tiles.x) % tiles.y, number / (tiles.x * tiles.y)};
   }
   GDESP_HD bool inside(const FixedPosition& p) const {
     for (int axis = 0; axis < 3; ++axis) {

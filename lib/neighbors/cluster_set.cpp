@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "neighbors/cluster_set.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+
+namespace gdesp {
+namespace {
+
+constexpr int x_bits = 10;  // order along a pencil: 1/1024 of a tile, a sixteenth of a spacing
+
+// A particle's place among the cells, and its sort key.
+struct KeyMaker {
+  Domain domain;
+  Vec3<std::int32_t> cells;
+  int pencil_bits;
+  std::int64_t tiles;
+
+  GDESP_HD static std::int32_t cell(std::int64_t p, std::int32_t count) {
+    return static_cast<std::int32_t>((static_cast<std::uint64_t>(Domain::fraction_of(p)) *
+                                      static_cast<std::uint64_t>(count)) >> Domain::fraction_bits);
+  }
+  GDESP_HD std::uint64_t key(const FixedPosition& p) const {
+    const std::uint64_t pencil = static_cast<std::uint64_t>(cell(p.z, cells.z)) * cells.y + cell(p.y, cells.y);
+    const std::uint64_t x = Domain::fraction_of(p.x) >> (Domain::fraction_bits - x_bits);
+    return (((static_cast<std::uint64_t>(domain.tile_number(p)) << pencil_bits) | pencil) << x_bits) | x;
+  }
+  GDESP_HD std::uint64_t last_key() const { return (static_cast<std::uint64_t>(tiles) << pencil_bits) << x_bits; }
+};
+
+struct MakeKeys {
+  KeyMaker maker;
+  const FixedPosition* position;
+  const std::uint32_t* id;
+  std::uint64_t* keys;
+  Index* order;
+
+  GDESP_HD void operator()(Index i) const {
+    const FixedPosition p = maker.domain.wrapped(position[i]);
+    const bool stays = id[i] != no_particle && maker.domain.inside(p);
+    keys[i] = stays ? maker.key(p) : maker.last_key();
+    order[i] = i;
+  }
+};
+
+struct Tally {
+  Index particles, lost;
+};
+struct CountParticles {
+  Domain domain;
+  const FixedPosition* position;
+  const std::uint32_t* id;
+  GDESP_HD Tally operator()(Index i) const {
+    if (id[i] == no_particle) return {0, 0};
+    const bool inside = domain.inside(domain.wrapped(position[i]));
+    return {inside ? 1 : 0, inside ? 0 : 1};
+  }
+};
+struct AddTally {
+  GDESP_HD Tally operator()(const Tally& a, const Tally& b) const {
+    return {a.particles + b.particles, a.lost + b.lost};
+  }
+};
+
+struct MarkPencilHeads {
+  const std::uint64_t* keys;
+  Index* head;
+  GDESP_HD void operator()(Index k) const {
+    head[k] = (k == 0 || (keys[k] >> x_bits) != (keys[k - 1] >> x_bits)) ? 1 : 0;
+  }
+};
+
+struct WritePencilFirsts {
+  const Index* head;
+  const Index* ordinal;
+  Index* pencil_first;
+  GDESP_HD void operator()(Index k) const {
+    if (head[k]) pencil_first[ordinal[k]] = k;
+  }
+};
+
+struct CountPadded {
+  const std::uint64_t* keys;
+  const Index* pencil_first;
+  Index pencils, particles;
+  int tile_shift;
+  Index* padded_count;
+  Index* tile_head;
+  GDESP_HD void operator()(Index o) const {
+    const Index end = o + 1 < pencils ? pencil_first[o + 1] : particles;
+    padded_count[o] = (end - pencil_first[o] + 3) / 4 * 4;
+    const std::uint64_t tile = keys[pencil_first[o]] >> tile_shift;
+    tile_head[o] = (o == 0 || (keys[pencil_first[o] - 1] >> tile_shift) != tile) ? 1 : 0;
+  }
+};
+
+struct WriteTileSlots {
+  const std::uint64_t* keys;
+  const Index* pencil_first;
+  const Index* tile_head;
+  const Index* tile_ordinal;
+  int tile_shift;
+  Index* tile_slot;
+  GDESP_HD void operator()(Index o) const {
+    if (tile_head[o]) tile_slot[keys[pencil_first[o]] >> tile_shift] = tile_ordinal[o];
+  }
+};
+
+struct PlaceParticles {
+  KeyMaker maker;
+  const std::uint64_t* keys;
+  const Index* order;
+  const FixedPosition* position;
+  const Index* head;
+  const Index* ordinal;
+  const Index* pencil_first;
+  const Index* padded_begin;
+  const Index* tile_slot;
+  Index particles;
+  int tile_shift;
+  Index* source;
+  Index* cell_begin;
+  Index* cluster_tile;
+
+  GDESP_HD std::int32_t cell_x(Index k) const {
+    return KeyMaker::cell(maker.domain.wrapped(position[order[k]]).x, maker.cells.x);
+  }
+  GDESP_HD void operator()(Index k) const {
+    const Index o = ordinal[k] + head[k] - 1;
+    const Index slot = padded_begin[o] + (k - pencil_first[o]);
+    const std::uint64_t tile = keys[k] >> tile_shift;
+    source[slot] = order[k];
+    if (slot % exec::cluster_size == 0) cluster_tile[slot / exec::cluster_size] = static_cast<Index>(tile);
+
+    const std::uint64_t pencil = (keys[k] >> x_bits) & ((std::uint64_t{1} << maker.pencil_bits) - 1);
+    Index* row = cell_begin + (static_cast<std::int64_t>(tile_slot[tile]) * maker.cells.z * maker.cells.y +
+                               static_cast<std::int64_t>(pencil)) * (maker.cells.x + 1);
+    const std::int32_t cx = cell_x(k);
+    for (std::int32_t c = head[k] ? 0 : cell_x(k - 1) + 1; c <= cx; ++c) row[c] = slot;
+    if (k + 1 == particles || head[k + 1]) {
+      const Index end = padded_begin[o + 1];
+      for (std::int32_t c = cx + 1; c <= maker.cells.x; ++c) row[c] = end;
+      for (Index s = slot + 1; s < end; ++s) source[s] = -1;
+    }
+  }
+};
+
+int bits_for(std::uint64_t largest) {
+  int bits = 1;
+  while (largest >>= 1) ++bits;
+  return bits;
+}
+
+}  // namespace
+
+template <class Exec>
+ClusterSet<Exec>::ClusterSet(const Exec& exec, const Domain& domain, double cell_size)
+    : exec_(exec), domain_(domain), keys_(exec), keys_scratch_(exec), order_(exec), order_scratch_(exec), head_(exec),
+      ordinal_(exec), pencil_first_(exec), padded_count_(exec), padded_begin_(exec), tile_head_(exec),
+      tile_ordinal_(exec), source_(exec), tile_slot_(exec), cell_begin_(exec), cluster_tile_(exec) {
+  for (int axis = 0; axis < 3; ++axis) {
+    cells_[axis] = std::max(1, static_cast<std::int32_t>(domain.tile_size[axis] / cell_size + 1e-6));
+  }
+  const std::int64_t tiles = static_cast<std::int64_t>(domain.tiles.x) * domain.tiles.y * domain.tiles.z;
+  if (tiles > (std::int64_t{1} << 28)) {
+    throw Error(ErrorKind::input, "the domain is too large for its resolution: " + std::to_string(tiles) +
+                                      " blocks of 64 spacings, at most 268435456; give a smaller domain or a larger dp");
+  }
+  pencil_bits_ = bits_for(static_cast<std::uint64_t>(cells_.y) * cells_.z - 1);
+  tile_bits_ = bits_for(static_cast<std::uint64_t>(tiles));
+  tile_slot_.resize_discard(static_cast<std::size_t>(tiles));
+  tile_slot_.fill_bytes(0xff);
+}
+
+template <class Exec>
+void ClusterSet<Exec>::build(const Array<FixedPosition, Exec>& position, const Array<std::uint32_t, Exec>& id,
+                             Index old_slots) {
+  const std::int64_t tiles = static_cast<std::int64_t>(domain_.tiles.x) * domain_.tiles.y * domain_.tiles.z;
+  const KeyMaker maker{domain_, cells_, pencil_bits_, tiles};
+  const int tile_shift = x_bits + pencil_bits_;
+  const auto n = static_cast<std::size_t>(old_slots);
+  keys_.resize_discard(n);
+  order_.resize_discard(n);
+  exec::parallel_for(exec_, "sort::keys", old_slots,
+                     MakeKeys{maker, position.data(), id.data(), keys_.data(), order_.data()});
+  const Tally tally = exec::reduce(exec_, "sort::count", old_slots, Tally{0, 0},
+                                   CountParticles{domain_, position.data(), id.data()}, AddTally{});
+  particles_ = tally.particles;
+  lost_ = tally.lost;
+  exec::sort_pairs(exec_, "sort::radix", keys_, order_, keys_scratch_, order_scratch_, old_slots,
+                   tile_shift + tile_bits_);
+
+  const auto count = static_cast<std::size_t>(particles_);
+  head_.resize_discard(count + 1);
+  ordinal_.resize_discard(count + 1);
+  exec::parallel_for(exec_, "sort::heads", particles_, MarkPencilHeads{keys_.data(), head_.data()});
+  const Index pencils = exec::exclusive_scan(exec_, "sort::scan", head_.data(), ordinal_.data(), particles_);
+  const auto p = static_cast<std::size_t>(pencils);
+  for (auto* array : {&pencil_first_, &padded_count_, &padded_begin_, &tile_head_, &tile_ordinal_}) {
+    array->resize_discard(p + 1);
+  }
+  exec::parallel_for(exec_, "sort::heads", particles_,
+                     WritePencilFirsts{head_.data(), ordinal_.data(), pencil_first_.data()});
+  exec::parallel_for(exec_, "sort::heads", pencils,
+                     CountPadded{keys_.data(), pencil_first_.data(), pencils, particles_, tile_shift,
+                                 padded_count_.data(), tile_head_.data()});
+  slots_ = exec::exclusive_scan(exec_, "sort::scan", padded_count_.data(), padded_begin_.data(), pencils);
+  const Index used_tiles =
+      exec::exclusive_scan(exec_, "sort::scan", tile_head_.data(), tile_ordinal_.data(), pencils);
+
+  tile_slot_.fill_bytes(0xff);
+  cell_begin_.resize_discard(static_cast<std::size_t>(used_tiles) * static_cast<std::size_t>(cells_.z) *
+                             static_cast<std::size_t>(cells_.y) * (static_cast<std::size_t>(cells_.x) + 1));
+  cell_begin_.fill_bytes(0);
+  source_.resize_discard(static_cast<std::size_t>(slots_));
+  cluster_tile_.resize_discard(static_cast<std::size_t>(clusters()));
+  exec::parallel_for(exec_, "sort::tiles", pencils,
+                     WriteTileSlots{keys_.data(), pencil_first_.data(), tile_head_.data(), tile_ordinal_.data(),
+                                    tile_shift, tile_slot_.data()});
+  exec::parallel_for(exec_, "sort::place", particles_,
+                     PlaceParticles{maker, keys_.data(), order_.data(), position.data(), head_.data(), ordinal_.data(),
+                                    pencil_first_.data(), padded_begin_.data(), tile_slot_.data(), particles_,
+                                    tile_shift, source_.data(), cell_begin_.data(), cluster_tile_.data()});
+}
+
+template <class Exec>
+CellGridView ClusterSet<Exec>::view() const {
+  CellGridView view{};
+  view.domain = domain_;
+  view.cells = cells_;
+  for (int axis = 0; axis < 3; ++axis) {
+    view.inverse_cell_size[axis] = static_cast<float>(cells_[axis] / domain_.tile_size[axis]);
+  }
+  view.tile_slot = tile_slot_.data();
+  view.cell_begin = cell_begin_.data();
+  view.cluster_tile = cluster_tile_.data();
+  view.clusters = clusters();
+  return view;
+}
+
+template class ClusterSet<exec::CompiledBackend>;
+
+}  // namespace gdesp
