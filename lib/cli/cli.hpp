@@ -45,11 +45,17 @@ std::optional<nlohmann::ordered_json> read_record(std::istream& in, int& line_nu
 
 /// Options every tool has: --help --version --quiet --verbose --log-format.
 boost::program_options::options_description common_options();
-/// Parses; on an unknown option throws Error(usage) with "did you mean".
+/// Parses; on an unknown option throws Error(usage) with "did you mean". With --help or --version nothing is required.
 boost::program_options::variables_map parse(const std::vector<std::string>& arguments,
                                             const boost::program_options::options_description& options,
                                             const boost::program_options::positional_options_description& positional);
 void apply_common(const boost::program_options::variables_map& vm);
+/// Extra lines of --version (back ends built, devices seen), made when asked.
+void set_version_details(std::function<std::string()> details);
+/// Answers --help and --version on stdout and returns true when one of them was given; the tool then ends with 0.
+/// `usage`: the lines above the options; `example`: those below.
+bool answer_help_or_version(const boost::program_options::variables_map& vm, const std::string& usage,
+                            const boost::program_options::options_description& options, const std::string& example);
 /// "key=value" from --set.
 Override parse_override(const std::string& text);
 /// The nearest of the candidates within a sensible edit distance, or "".
