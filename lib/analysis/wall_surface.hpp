@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The walls as a surface that can be asked: how far away, and at which height. A tree of boxes over triangles.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "particles/particle_tables.hpp"
+
+namespace gdesp::analysis {
+
+class WallSurface {
+ public:
+  WallSurface() = default;
+  /// Takes the triangles at rest (body 0); those of moving bodies are no bank.
+  explicit WallSurface(const TriangleTable& walls);
+
+  bool empty() const { return triangle_.empty(); }
+  /// Distance from p to the nearest triangle, m, if it is at most `limit`; else nullopt.
+  std::optional<double> distance(const Vec3d& p, double limit) const;
+  /// Elevation of the highest triangle over (x, y), m; nullopt where there is none.
+  std::optional<double> height(double x, double y) const;
+
+ private:
+  struct Triangle { Vec3d a, b, c; };
+  struct Node {
+    Vec3d lower, upper;
+    std::uint32_t first = 0, count = 0;  // leaf: triangles; inner: count 0, children at first and first + 1
+  };
+  void build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
+
+  std::vector<Triangle> triangle_;
+  std::vector<Node> node_;
+};
+
+/// Distance from a point to a triangle (Ericson 2005, Real-Time Collision Detection, sec. 5.1.5), m.
+double point_triangle_distance(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c);
+
+}  // namespace gdesp::analysis
