@@ -51,25 +51,24 @@ missing_packages() {
 # Runs a command as root: directly, or through sudo.
 as_root() { if (( EUID == 0 )); then "$@"; else sudo "$@"; fi; }
 
-# Progress from apt's status lines (dlstatus:... and pmstatus:what:percent:text); everything else goes to the log.
+# Progress from apt's status lines: dlstatus:item:percent:text and pmstatus:package:percent:text.
 apt_progress() {
-  local log=$1 line kind what percent text
-  while IFS= read -r line; do
-    if [[ $line == dlstatus:* || $line == pmstatus:* ]]; then
-      IFS=: read -r kind what percent text <<<"$line"
-      if [[ $kind == dlstatus ]]; then progress "download ${percent%.*} %"; else progress "install ${percent%.*} %  $what"; fi
-    else
-      printf '%s\n' "$line" >>"$log"
-    fi
+  local kind what percent _
+  while IFS=: read -r kind what percent _; do
+    case $kind in
+      dlstatus) progress "download ${percent%.*} %" ;;
+      pmstatus) progress "install ${percent%.*} %  $what" ;;
+    esac
   done
   progress_end
 }
 
+# apt LOG ARGUMENT...: apt-get, its words into the log. The status pipe is opened inside sudo, which would close
+# it, and is not stdout, which apt would make non-blocking under the feet of the packages' own scripts.
 apt() {
-  local log=$1
-  shift
-  as_root env DEBIAN_FRONTEND=noninteractive LC_ALL=C apt-get -o DPkg::Lock::Timeout=600 -o Acquire::Retries=5 \
-    -o Dpkg::Use-Pty=0 -o APT::Status-Fd=1 "$@" 2>&1 | apt_progress "$log"
+  # shellcheck disable=SC2016
+  as_root env DEBIAN_FRONTEND=noninteractive LC_ALL=C bash -c 'exec apt-get -o DPkg::Lock::Timeout=600 \
+    -o Acquire::Retries=5 -o Dpkg::Use-Pty=0 -o APT::Status-Fd=3 "$@" 3>&1 >>"$0" 2>&1' "$@" | apt_progress
 }
 
 # Installs what scripts/packages.txt names and the machine lacks. Says nothing and needs no network otherwise.
@@ -87,6 +86,7 @@ install_packages() {
   say "packages: installing $(wc -l <<<"$missing") and what they need (about 500 MB to download, 2.2 GB on disk when none is there)"
   mkdir -p "$1"
   : >"$log"
+  [[ -z $(dpkg --audit 2>/dev/null) ]] || as_root dpkg --configure -a >>"$log" 2>&1 || true  # an installation cut short
   apt "$log" update || warn "apt-get update did not succeed fully; trying to install all the same (see $log)"
   # shellcheck disable=SC2086
   apt "$log" install --yes --no-install-recommends $missing || {
