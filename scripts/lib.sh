@@ -10,7 +10,8 @@ quiet=no
 
 # ---- messages: all to stderr, so that stdout stays for results -------------------------------------------------
 
-say() { [[ $quiet == yes ]] || printf '==> %s\n' "$*" >&2; }
+announce() { printf '==> %s\n' "$*" >&2; }           # something is being done
+say() { [[ $quiet == yes ]] || announce "$@"; }        # nothing had to be done, or it is done
 warn() { printf '%s: warning: %s\n' "$script" "$*" >&2; }
 die() { printf '%s: %s\n' "$script" "$*" >&2; exit 1; }
 usage_error() { printf "%s: %s\nTry '%s --help'.\n" "$script" "$*" "$script" >&2; exit 2; }
@@ -74,7 +75,7 @@ apt() {
 # Installs what scripts/packages.txt names and the machine lacks. Says nothing and needs no network otherwise.
 install_packages() {
   local log=$1/packages.log missing list started=$SECONDS
-  command -v dpkg-query >/dev/null && command -v apt-get >/dev/null ||
+  command -v apt-get >/dev/null ||
     die "this is no Debian system (no apt-get). Install the equivalents of scripts/packages.txt, then use --no-install."
   missing=$(missing_packages)
   [[ -n $missing ]] || { say "packages: all $(wanted_packages | wc -l) there"; return 0; }
@@ -83,7 +84,7 @@ install_packages() {
     die "packages are missing, and installing them needs root; there is no sudo. As root, run:
   apt-get update && apt-get install --no-install-recommends $list"
   fi
-  say "packages: installing $(wc -l <<<"$missing") and what they need (about 500 MB to download, 2.2 GB on disk when none is there)"
+  announce "packages: installing $(wc -l <<<"$missing") and what they need (about 500 MB to download, 2.2 GB on disk when none is there)"
   mkdir -p "$1"
   : >"$log"
   [[ -z $(dpkg --audit 2>/dev/null) ]] || as_root dpkg --configure -a >>"$log" 2>&1 || true  # an installation cut short
@@ -125,7 +126,7 @@ configure() {
   shift
   [[ ! -f $dir/CMakeCache.txt ]] || fresh=(--fresh)
   command -v cmake >/dev/null || die "cmake is missing (drop --no-install, or install the packages in scripts/packages.txt)"
-  say "configuring in $dir"
+  announce "configuring in $dir"
   mkdir -p "$dir/logs"
   if ! (cd "$root" && cmake --preset release -B "$dir" "${fresh[@]}" "$@") >"$log" 2>&1; then
     rm -f "$dir/CMakeCache.txt"
@@ -136,10 +137,14 @@ configure() {
 }
 
 ninja_progress() {
-  local line started=$SECONDS left
+  local line started=$SECONDS left announced=no
   while IFS= read -r line; do
     if [[ $line =~ ^\[([0-9]+)/([0-9]+)\]\ (.*) ]]; then
       local done_=${BASH_REMATCH[1]} all=${BASH_REMATCH[2]} what=${BASH_REMATCH[3]##*/}
+      if [[ $announced == no && ${BASH_REMATCH[3]} != *"Re-checking"* ]]; then
+        announce "building, $1 at once"
+        announced=yes
+      fi
       left=$(( (SECONDS - started) * (all - done_) / (done_ > 0 ? done_ : 1) ))
       progress "$(printf '%3d %%  %d of %d, about %s left  %s' $((100 * done_ / all)) "$done_" "$all" "$(clock $left)" "$what")"
     fi
@@ -154,8 +159,7 @@ build() {
   shift
   jobs=$(build_jobs)
   mkdir -p "$dir/logs"
-  say "building, $jobs at once"
-  if ! ninja -C "$dir" -j "$jobs" "$@" 2>&1 | ninja_progress >"$log"; then
+  if ! ninja -C "$dir" -j "$jobs" "$@" 2>&1 | ninja_progress "$jobs" >"$log"; then
     if grep -q '^FAILED:' "$log"; then
       sed -n '/^FAILED:/,$p' "$log" | grep -v '^/usr.*c++ .* -c ' | head -n 40 >&2
     else
