@@ -9,18 +9,23 @@
 #include <cstring>
 
 #include "core/host_device.hpp"
+#include "core/real.hpp"
 #include "exec/backend.hpp"
+
+#if defined(__AVX512F__) && !defined(__CUDACC__)
+#include <immintrin.h>
+#endif
 
 namespace gdesp::exec {
 
 /// Particles in a cluster.
 inline constexpr Index cluster_size = 4;
 
-// One real lane (GPU).
-GDESP_HD inline float max(float a, float b) { return a > b ? a : b; }
-GDESP_HD inline float min(float a, float b) { return a < b ? a : b; }
-GDESP_HD inline float sqrt(float a) { return ::sqrtf(a); }
-GDESP_HD inline float select(bool c, float a, float b) { return c ? a : b; }
+// One real lane (GPU), and the scalars of both.
+using real::max;
+using real::min;
+using real::select;
+using real::sqrt;
 
 #if !defined(__CUDACC__)
 
@@ -64,10 +69,12 @@ struct HostLanes {
   }
   /// p[j] of the four j particles, in every fourth lane.
   static Real load_j(const float* p) {
-    typedef float Quarter __attribute__((vector_size(16)));
-    Quarter q;
-    std::memcpy(&q, p, sizeof(q));
-    return Float16(__builtin_shufflevector(q, q, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3));
+#if defined(__AVX512F__)
+    return Float16(reinterpret_cast<Float16::Vector>(_mm512_broadcast_f32x4(_mm_loadu_ps(p))));
+#else
+    return Float16(Float16::Vector{p[0], p[1], p[2], p[3], p[0], p[1], p[2], p[3], p[0], p[1], p[2], p[3], p[0],
+                                   p[1], p[2], p[3]});
+#endif
   }
   /// p[i] = sum of the four lanes of i, in the order (0 + 1) + (2 + 3).
   static void store_sum_i(float* p, const Real& a) {
@@ -79,7 +86,7 @@ struct HostLanes {
   }
   static bool any(const Mask& m) {
 #if defined(__AVX512F__)
-    return __builtin_ia32_ptestmd512(reinterpret_cast<const V16si&>(m), reinterpret_cast<const V16si&>(m), 0xffff) != 0;
+    return _mm512_test_epi32_mask(reinterpret_cast<__m512i>(m), reinterpret_cast<__m512i>(m)) != 0;
 #else
     long long bits = 0;
     long long words[8];
@@ -94,9 +101,6 @@ struct HostLanes {
   static std::uint32_t allocate(std::uint32_t* counter, std::uint32_t amount) {
     return __atomic_fetch_add(counter, amount, __ATOMIC_RELAXED);
   }
-
- private:
-  typedef int V16si __attribute__((vector_size(64)));
 };
 #endif
 

@@ -121,7 +121,7 @@ struct PlaceParticles {
   int tile_shift;
   Index* source;
   Index* cell_begin;
-  Index* cluster_tile;
+  Vec3<std::int32_t>* cluster_tile;
 
   GDESP_HD std::int32_t cell_x(Index k) const {
     return KeyMaker::cell(maker.domain.wrapped(position[order[k]]).x, maker.cells.x);
@@ -131,7 +131,9 @@ struct PlaceParticles {
     const Index slot = padded_begin[o] + (k - pencil_first[o]);
     const std::uint64_t tile = keys[k] >> tile_shift;
     source[slot] = order[k];
-    if (slot % exec::cluster_size == 0) cluster_tile[slot / exec::cluster_size] = static_cast<Index>(tile);
+    if (slot % exec::cluster_size == 0) {
+      cluster_tile[slot / exec::cluster_size] = maker.domain.tile_coordinates(static_cast<std::int32_t>(tile));
+    }
 
     const std::uint64_t pencil = (keys[k] >> x_bits) & ((std::uint64_t{1} << maker.pencil_bits) - 1);
     Index* row = cell_begin + (static_cast<std::int64_t>(tile_slot[tile]) * maker.cells.z * maker.cells.y +
@@ -162,6 +164,7 @@ ClusterSet<Exec>::ClusterSet(const Exec& exec, const Domain& domain, double cell
   for (int axis = 0; axis < 3; ++axis) {
     cells_[axis] = std::max(1, static_cast<std::int32_t>(domain.tile_size[axis] / cell_size + 1e-6));
   }
+  if (domain.dimensions == 2) cells_.y = 1;
   const std::int64_t tiles = static_cast<std::int64_t>(domain.tiles.x) * domain.tiles.y * domain.tiles.z;
   if (tiles > (std::int64_t{1} << 28)) {
     throw Error(ErrorKind::input, "the domain is too large for its resolution: " + std::to_string(tiles) +

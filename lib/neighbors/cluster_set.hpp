@@ -23,7 +23,7 @@ struct CellGridView {
   Vec3f inverse_cell_size;           ///< 1/m
   const Index* tile_slot;            ///< per dense tile number: storage slot, -1 when the tile holds no particle
   const Index* cell_begin;           ///< [storage slot][pencil = cz * cells.y + cy][cell x 0..cells.x]: first slot
-  const Index* cluster_tile;         ///< per cluster: dense tile number
+  const Vec3<std::int32_t>* cluster_tile;  ///< per cluster: tile coordinates
   Index clusters;
 
   /// Row of cells.x + 1 starts of a pencil.
@@ -62,7 +62,8 @@ class ClusterSet {
   Array<std::uint64_t, Exec> keys_, keys_scratch_;
   Array<Index, Exec> order_, order_scratch_, head_, ordinal_, pencil_first_, padded_count_, padded_begin_;
   Array<Index, Exec> tile_head_, tile_ordinal_;
-  Array<Index, Exec> source_, tile_slot_, cell_begin_, cluster_tile_;
+  Array<Index, Exec> source_, tile_slot_, cell_begin_;
+  Array<Vec3<std::int32_t>, Exec> cluster_tile_;
 };
 
 /// Particles within `cutoff` (m) of the box [low, high] (m, local to tile `tile`; a point is a box) lie in the

@@ -12,13 +12,14 @@
 
 namespace gdesp {
 
-/// Fluid particles. All carry the mass reference_density * dp^dimensions.
+/// Fluid particles, of mass mass_share * reference_density * dp^dimensions.
 struct FluidTable {
   std::vector<Vec3d> position;      ///< m
   std::vector<Vec3f> velocity;      ///< m/s; default 0
   std::vector<float> density;       ///< kg/m3, true (not superficial); default: hydrostatic, set by the solver
   std::vector<float> pressure;      ///< Pa; output only
   std::vector<float> porosity;      ///< fluid volume share; output only
+  std::vector<float> mass_share;    ///< default 1; less for water that starts between grains
   std::vector<std::uint32_t> id;    ///< default 0..n-1
 };
 
@@ -27,6 +28,7 @@ struct BoundaryTable {
   std::vector<Vec3d> position;    ///< m
   std::vector<Vec3f> normal;      ///< unit, from the wall into the fluid; 0 where unknown
   std::vector<float> depth;       ///< m below the wall surface, > 0
+  std::vector<float> friction;    ///< 1: no slip, 0: free slip; default 0
   std::vector<std::int32_t> body; ///< 0: at rest; k > 0: moves with bodies[k - 1]
   std::vector<Vec3f> velocity;    ///< m/s; output only
   std::vector<float> pressure;    ///< Pa; output only

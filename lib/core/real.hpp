@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The functions that laws written on a generic real type use instead of branches. Laws say `using real::max;` and
+// so on: plain floats find these, lane types (exec/lanes.hpp) bring their own.
+#pragma once
+
+#include <cmath>
+
+#include "core/host_device.hpp"
+
+namespace gdesp::real {
+
+GDESP_HD inline float max(float a, float b) { return a > b ? a : b; }
+GDESP_HD inline float min(float a, float b) { return a < b ? a : b; }
+GDESP_HD inline float sqrt(float a) { return ::sqrtf(a); }
+GDESP_HD inline float select(bool c, float a, float b) { return c ? a : b; }
+
+}  // namespace gdesp::real

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The pair passes of the fluid: momentum, continuity, both at once, and the extrapolation of wall pressure.
+#include "sph/fluid_system.hpp"
+#include "sph/pressure_and_viscosity.hpp"
+#include "sph/tait.hpp"
+#include "sph/wall_extrapolation.hpp"
+
+namespace gdesp::sph {
+namespace {
+
+// Rows of a record (four floats each) and of a rate.
+enum RecordRow { row_x = 0, row_y = 4, row_z = 8, row_B = 12, row_vx = 16, row_vy = 20, row_vz = 24, row_A = 28 };
+
+template <bool WithMomentum, bool WithContinuity, Viscosity Kind>
+struct FluidPass {
+  FluidPairLaw law;
+  float c2;                     // m2/s2
+  float diffusion;              // 2 delta h c, m2/s
+  ClusterListView fluid_list, wall_list;
+  const float* fluid;
+  const float* walls;
+  const float* wall_friction;
+  const float* mass_share;
+  float* rate;
+
+  template <class Real>
+  struct Particle { Real x, y, z, vx, vy, vz, A; };
+
+  template <bool Wall, class Lanes>
+  GDESP_HD void add_cluster(const Lanes& lanes, const Particle<typename Lanes::Real>& i, const float* rj,
+                            const typename Lanes::Real& friction, const Vec3f& shift,
+                            FluidRates<typename Lanes::Real>& rates) const {
+    using Real = typename Lanes::Real;
+    add_fluid_pair<WithMomentum, WithContinuity, Kind, !Wall>(
+        law, i.x + Real(shift.x) - lanes.load_j(rj + row_x), i.y + Real(shift.y) - lanes.load_j(rj + row_y),
+        i.z + Real(shift.z) - lanes.load_j(rj + row_z), i.vx - lanes.load_j(rj + row_vx),
+        i.vy - lanes.load_j(rj + row_vy), i.vz - lanes.load_j(rj + row_vz), i.A, lanes.load_j(rj + row_A),
+        lanes.load_j(rj + row_B), friction, rates);
+  }
+
+  template <class Lanes>
+  GDESP_HD void operator()(Index c, const Lanes& lanes) const {
+    using Real = typename Lanes::Real;
+    const float* ri = fluid + record_offset(c);
+    const Particle<Real> i{lanes.load_i(ri + row_x),  lanes.load_i(ri + row_y),  lanes.load_i(ri + row_z),
+                           lanes.load_i(ri + row_vx), lanes.load_i(ri + row_vy), lanes.load_i(ri + row_vz),
+                           lanes.load_i(ri + row_A)};
+    FluidRates<Real> rates;
+    for_each_cluster(fluid_list, c, [&](Index j, const Vec3f& shift) {
+      add_cluster<false>(lanes, i, fluid + record_offset(j), Real(1.0f), shift, rates);
+    });
+    for_each_cluster(wall_list, c, [&](Index j, const Vec3f& shift) {
+      add_cluster<true>(lanes, i, walls + record_offset(j), lanes.load_j(wall_friction + 4 * static_cast<std::int64_t>(j)),
+                        shift, rates);
+    });
+    float* out = rate + 16 * static_cast<std::int64_t>(c);
+    // V_i / (m_i / rho0), that is rho0 / rho_i (and 1 in the form of the paper).
+    const Real specific_volume = lanes.load_i(ri + row_B) / lanes.load_i(mass_share + 4 * static_cast<std::int64_t>(c));
+    if constexpr (WithMomentum) {
+      const Real scale = Real(c2) * specific_volume;
+      lanes.store_sum_i(out, rates.ax * scale);
+      lanes.store_sum_i(out + 4, rates.ay * scale);
+      lanes.store_sum_i(out + 8, rates.az * scale);
+    }
+    if constexpr (WithContinuity) {
+      lanes.store_sum_i(out + 12, rates.compression / specific_volume + Real(diffusion) * rates.diffusion);
+    }
+  }
+};
+
+struct ExtrapolateWalls {
+  FluidPairLaw law;
+  ClusterListView list;
+  const float* fluid;
+  float* walls;
+
+  template <class Lanes>
+  GDESP_HD void operator()(Index c, const Lanes& lanes) const {
+    using Real = typename Lanes::Real;
+    float* ri = walls + record_offset(c);
+    const Real x = lanes.load_i(ri + row_x), y = lanes.load_i(ri + row_y), z = lanes.load_i(ri + row_z);
+    WallSums<Real> sums;
+    bool any = false;
+    for_each_cluster(list, c, [&](Index j, const Vec3f& shift) {
+      const float* rj = fluid + record_offset(j);
+      add_wall_pair(law.inverse_support, x + Real(shift.x) - lanes.load_j(rj + row_x),
+                    y + Real(shift.y) - lanes.load_j(rj + row_y), z + Real(shift.z) - lanes.load_j(rj + row_z),
+                    lanes.load_j(rj + row_A), sums);
+      any = true;
+    });
+    if (!any) return;
+    lanes.store_sum_i(ri + row_B, sums.weight);
+    lanes.store_sum_i(ri + row_A, sums.pressure + Real(law.gx) * sums.rx + Real(law.gy) * sums.ry +
+                                      Real(law.gz) * sums.rz);
+  }
+};
+
+// Second half of the extrapolation: quotient, clip, density.
+struct FinishWalls {
+  const std::uint32_t* count;
+  float* walls;
+  GDESP_HD void operator()(Index slot) const {
+    const Index c = slot / exec::cluster_size;
+    if (count[c] == 0) return;
+    float* r = walls + record_offset(c) + slot % exec::cluster_size;
+    const float weight = r[row_B];
+    const float A = weight > 1.0e-6f ? real::max(r[row_A] / weight, 0.0f) : 0.0f;
+    r[row_A] = A;
+    r[row_B] = 1.0f / (1.0f + tait_density(A));
+  }
+};
+
+// `dynamic` walls: continuity of wall particles against the fluid.
+struct WallContinuity {
+  FluidPairLaw law;
+  ClusterListView list;
+  const float* fluid;
+  const float* walls;
+  float* rate;
+
+  template <class Lanes>
+  GDESP_HD void operator()(Index c, const Lanes& lanes) const {
+    using Real = typename Lanes::Real;
+    const float* ri = walls + record_offset(c);
+    const Real x = lanes.load_i(ri + row_x), y = lanes.load_i(ri + row_y), z = lanes.load_i(ri + row_z);
+    const Real vx = lanes.load_i(ri + row_vx), vy = lanes.load_i(ri + row_vy), vz = lanes.load_i(ri + row_vz);
+    const Real A = lanes.load_i(ri + row_A);
+    FluidRates<Real> rates;
+    for_each_cluster(list, c, [&](Index j, const Vec3f& shift) {
+      const float* rj = fluid + record_offset(j);
+      add_fluid_pair<false, true, Viscosity::none, false>(
+          law, x + Real(shift.x) - lanes.load_j(rj + row_x), y + Real(shift.y) - lanes.load_j(rj + row_y),
+          z + Real(shift.z) - lanes.load_j(rj + row_z), vx - lanes.load_j(rj + row_vx), vy - lanes.load_j(rj + row_vy),
+          vz - lanes.load_j(rj + row_vz), A, lanes.load_j(rj + row_A), lanes.load_j(rj + row_B), Real(1.0f), rates);
+    });
+    lanes.store_sum_i(rate + 4 * static_cast<std::int64_t>(c), rates.compression / lanes.load_i(ri + row_B));
+  }
+};
+
+}  // namespace
+
+template <class Exec>
+FluidPairLaw FluidSystem<Exec>::pair_law() const {
+  const FluidParameters& p = parameters_;
+  const double alpha = wendland_normalisation(p.h, p.dimensions);
+  const double c = p.sound_speed;
+  FluidPairLaw law{};
+  law.inverse_support = static_cast<float>(1.0 / (2.0 * p.h));
+  law.slope = static_cast<float>(std::pow(p.dp, p.dimensions) * 5.0 * alpha / (p.h * p.h));
+  law.artificial = static_cast<float>(p.artificial_viscosity * p.h / c);
+  law.eta2 = static_cast<float>(0.01 * p.h * p.h);
+  law.morris = static_cast<float>(2.0 * p.kinematic_viscosity / (c * c));
+  law.gx = static_cast<float>(p.gravity.x / (c * c));
+  law.gy = static_cast<float>(p.gravity.y / (c * c));
+  law.gz = static_cast<float>(p.gravity.z / (c * c));
+  return law;
+}
+
+template <class Exec>
+template <bool M, bool C, Viscosity K>
+void FluidSystem<Exec>::run_fluid_pass_kind(const char* name) {
+  const FluidParameters& p = parameters_;
+  exec::pair_pass(exec_, name, set_.clusters(),
+                  FluidPass<M, C, K>{pair_law(), static_cast<float>(p.sound_speed * p.sound_speed),
+                                     static_cast<float>(2.0 * p.density_diffusion * p.h * p.sound_speed),
+                                     fluid_fluid_.view(), fluid_wall_.view(), record_.data(), wall_record_.data(),
+                                     wall_friction_.data(), mass_share_.data(),
+                                     rate_.data()});
+}
+
+template <class Exec>
+template <bool M, bool C>
+void FluidSystem<Exec>::run_fluid_pass(const char* name) {
+  if (!M || parameters_.viscosity == Viscosity::none) return run_fluid_pass_kind<M, C, Viscosity::none>(name);
+  if (parameters_.viscosity == Viscosity::morris) return run_fluid_pass_kind<M, C, Viscosity::morris>(name);
+  run_fluid_pass_kind<M, C, Viscosity::artificial>(name);
+}
+
+template <class Exec>
+void FluidSystem<Exec>::momentum_pass() { run_fluid_pass<true, false>("sph::momentum"); }
+template <class Exec>
+void FluidSystem<Exec>::continuity_pass() { run_fluid_pass<false, true>("sph::continuity"); }
+template <class Exec>
+void FluidSystem<Exec>::combined_pass() { run_fluid_pass<true, true>("sph::momentum_and_continuity"); }
+
+template <class Exec>
+void FluidSystem<Exec>::extrapolate_walls() {
+  if (wall_set_.clusters() == 0 || !parameters_.extrapolated_walls) return;
+  exec::pair_pass(exec_, "sph::walls", wall_set_.clusters(),
+                  ExtrapolateWalls{pair_law(), wall_fluid_.view(), record_.data(), wall_record_.data()});
+  exec::parallel_for(exec_, "sph::walls_finish", wall_set_.slots(),
+                     FinishWalls{wall_fluid_.view().count, wall_record_.data()});
+}
+
+template <class Exec>
+void FluidSystem<Exec>::wall_continuity_pass() {
+  if (wall_set_.clusters() == 0 || parameters_.extrapolated_walls) return;
+  exec::pair_pass(exec_, "sph::walls", wall_set_.clusters(),
+                  WallContinuity{pair_law(), wall_fluid_.view(), record_.data(), wall_record_.data(),
+                                 wall_rate_.data()});
+}
+
+using Backend = exec::CompiledBackend;
+template FluidPairLaw FluidSystem<Backend>::pair_law() const;
+template void FluidSystem<Backend>::momentum_pass();
+template void FluidSystem<Backend>::continuity_pass();
+template void FluidSystem<Backend>::combined_pass();
+template void FluidSystem<Backend>::extrapolate_walls();
+template void FluidSystem<Backend>::wall_continuity_pass();
+
+}  // namespace gdesp::sph

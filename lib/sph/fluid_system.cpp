@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Start, sorting, lists and output of the fluid system. The passes are in fluid_passes.cpp, the updates in
+// fluid_updates.cpp.
+#include "sph/fluid_system.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <unordered_map>
+
+#include "core/error.hpp"
+#include "exec/permute.hpp"
+#include "sph/tait.hpp"
+
+namespace gdesp::sph {
+namespace {
+
+// Rates live four a cluster row by row; one row is gathered by slot.
+struct GatherRates {
+  const float* from;
+  const Index* source;
+  float* to;
+  GDESP_HD void operator()(Index s) const {
+    const Index old = source[s];
+    for (int row = 0; row < 4; ++row) {
+      to[16 * static_cast<std::int64_t>(s / 4) + 4 * row + s % 4] =
+          old >= 0 ? from[16 * static_cast<std::int64_t>(old / 4) + 4 * row + old % 4] : 0.0f;
+    }
+  }
+};
+
+struct GatherWrapped {
+  Domain domain;
+  const FixedPosition* from;
+  const Index* source;
+  FixedPosition* to;
+  GDESP_HD void operator()(Index s) const {
+    to[s] = source[s] >= 0 ? domain.wrapped(from[source[s]]) : FixedPosition{};
+  }
+};
+
+struct Thin {
+  const std::uint32_t* id;
+  const float* porosity;
+  float* density;
+  float* mass_share;
+  GDESP_HD void operator()(Index s) const {
+    if (id[s] == no_particle) return;
+    mass_share[s] *= porosity[s];
+    density[s] = (1.0f + density[s]) * porosity[s] - 1.0f;
+  }
+};
+
+struct SetOne {
+  float* value;
+  GDESP_HD void operator()(Index s) const { value[s] = 1.0f; }
+};
+
+std::uint64_t column_key(const Vec3d& r, double width) {
+  const auto ix = static_cast<std::int64_t>(std::floor(r.x / width)), iy = static_cast<std::int64_t>(std::floor(r.y / width));
+  return (static_cast<std::uint64_t>(ix) << 32) ^ (static_cast<std::uint64_t>(iy) & 0xffffffffu);
+}
+
+// Hydrostatic D under the highest water of each column of width dp.
+std::vector<float> hydrostatic_density(const FluidTable& fluid, const FluidParameters& p) {
+  std::unordered_map<std::uint64_t, double> top;
+  for (const Vec3d& r : fluid.position) {
+    auto [it, fresh] = top.try_emplace(column_key(r, p.dp), r.z);
+    if (!fresh) it->second = std::max(it->second, r.z);
+  }
+  std::vector<float> density(fluid.position.size());
+  const double c2 = p.sound_speed * p.sound_speed;
+  for (std::size_t i = 0; i < density.size(); ++i) {
+    const double head = top[column_key(fluid.position[i], p.dp)] + 0.5 * p.dp - fluid.position[i].z;
+    density[i] = tait_density(static_cast<float>(-p.gravity.z * head / c2));
+  }
+  return density;
+}
+
+template <class T>
+std::vector<T> value_or(const std::vector<T>& given, std::size_t n, const T& value) {
+  return given.empty() ? std::vector<T>(n, value) : given;
+}
+
+std::vector<std::uint32_t> numbered(std::size_t n) {
+  std::vector<std::uint32_t> ids(n);
+  std::iota(ids.begin(), ids.end(), 0u);
+  return ids;
+}
+
+}  // namespace
+
+template <class Exec>
+FluidSystem<Exec>::FluidSystem(const Exec& exec, const Domain& domain, const FluidParameters& parameters,
+                               const FluidTable& fluid, const BoundaryTable& walls)
+    : exec_(exec), domain_(domain), parameters_(parameters), set_(exec, domain, 2.0 * parameters.dp),
+      wall_set_(exec, domain, 2.0 * parameters.dp), fluid_fluid_(exec), fluid_wall_(exec), wall_fluid_(exec),
+      position_(exec), velocity_(exec), density_(exec), id_(exec), mass_share_(exec), porosity_(exec), external_(exec),
+      record_(exec), rate_(exec), wall_position_(exec), wall_start_(exec), wall_velocity_(exec), wall_body_(exec),
+      wall_density_(exec), wall_friction_(exec), wall_id_(exec), wall_record_(exec), wall_rate_(exec),
+      wall_bodies_(exec), scratch_position_(exec), scratch_vector_(exec), scratch_float_(exec), scratch_uint_(exec),
+      scratch_int_(exec) {
+  start_fluid(fluid);
+  start_walls(walls);
+  sort_walls();
+  rebuild();
+}
+
+template <class Exec>
+void FluidSystem<Exec>::start_fluid(const FluidTable& fluid) {
+  const std::size_t n = fluid.position.size();
+  std::vector<FixedPosition> position(n);
+  std::transform(fluid.position.begin(), fluid.position.end(), position.begin(),
+                 [&](const Vec3d& r) { return domain_.fixed(r); });
+  std::vector<float> density;
+  if (fluid.density.empty()) {
+    density = hydrostatic_density(fluid, parameters_);
+  } else {
+    density.resize(n);
+    std::transform(fluid.density.begin(), fluid.density.end(), density.begin(), [&](float rho) {
+      return static_cast<float>(static_cast<double>(rho) / parameters_.reference_density - 1.0);
+    });
+  }
+  position_.assign(position);
+  velocity_.assign(value_or(fluid.velocity, n, Vec3f{}));
+  density_.assign(density);
+  id_.assign(fluid.id.empty() ? numbered(n) : fluid.id);
+  mass_share_.assign(value_or(fluid.mass_share, n, 1.0f));
+  rate_.resize_discard(4 * (n + 3));
+  rate_.fill_bytes(0);
+}
+
+template <class Exec>
+void FluidSystem<Exec>::start_walls(const BoundaryTable& walls) {
+  const std::size_t n = walls.position.size();
+  std::vector<FixedPosition> position(n);
+  std::transform(walls.position.begin(), walls.position.end(), position.begin(),
+                 [&](const Vec3d& r) { return domain_.fixed(r); });
+  wall_position_.assign(position);
+  wall_start_.assign(position);
+  wall_velocity_.assign(std::vector<Vec3f>(n));
+  wall_body_.assign(value_or(walls.body, n, 0));
+  wall_friction_.assign(value_or(walls.friction, n, 0.0f));
+  wall_density_.assign(std::vector<float>(n, 0.0f));
+  wall_id_.assign(numbered(n));
+  walls_move_ = std::any_of(walls.body.begin(), walls.body.end(), [](std::int32_t b) { return b > 0; });
+}
+
+template <class Exec>
+void FluidSystem<Exec>::sort_fluid() {
+  set_.build(position_, id_, static_cast<Index>(position_.size()));
+  lost_ += set_.lost();
+  const Index n = set_.slots();
+  const Index* source = set_.source();
+  scratch_position_.resize_discard(static_cast<std::size_t>(n));
+  exec::parallel_for(exec_, "sort::gather", n,
+                     GatherWrapped{domain_, position_.data(), source, scratch_position_.data()});
+  position_.swap(scratch_position_);
+  exec::permute(exec_, velocity_, scratch_vector_, source, n, Vec3f{});
+  exec::permute(exec_, density_, scratch_float_, source, n, 0.0f);
+  exec::permute(exec_, mass_share_, scratch_float_, source, n, 1.0f);
+  exec::permute(exec_, id_, scratch_uint_, source, n, no_particle);
+  if (coupled_) {
+    exec::permute(exec_, porosity_, scratch_float_, source, n, 1.0f);
+    exec::permute(exec_, external_, scratch_vector_, source, n, Vec3f{});
+  }
+  scratch_float_.resize_discard(4 * static_cast<std::size_t>(n));
+  exec::parallel_for(exec_, "sort::gather", n, GatherRates{rate_.data(), source, scratch_float_.data()});
+  rate_.swap(scratch_float_);
+  record_.resize_discard(static_cast<std::size_t>(set_.clusters()) * record_size);
+}
+
+template <class Exec>
+void FluidSystem<Exec>::sort_walls() {
+  if (wall_position_.empty()) return;
+  wall_set_.build(wall_position_, wall_id_, static_cast<Index>(wall_position_.size()));
+  const Index n = wall_set_.slots();
+  const Index* source = wall_set_.source();
+  exec::permute(exec_, wall_position_, scratch_position_, source, n, FixedPosition{});
+  exec::permute(exec_, wall_start_, scratch_position_, source, n, FixedPosition{});
+  exec::permute(exec_, wall_velocity_, scratch_vector_, source, n, Vec3f{});
+  exec::permute(exec_, wall_body_, scratch_int_, source, n, 0);
+  exec::permute(exec_, wall_friction_, scratch_float_, source, n, 0.0f);
+  exec::permute(exec_, wall_density_, scratch_float_, source, n, 0.0f);
+  exec::permute(exec_, wall_id_, scratch_uint_, source, n, no_particle);
+  wall_record_.resize_discard(static_cast<std::size_t>(wall_set_.clusters()) * record_size);
+  wall_rate_.resize_discard(static_cast<std::size_t>(n));
+  wall_rate_.fill_bytes(0);
+  exec::parallel_for(exec_, "sph::walls_reset", n,
+                     EvolvedWallReset{wall_density_.data(), parameters_.paper_form, wall_record_.data()});
+  pack_walls();
+}
+
+template <class Exec>
+void FluidSystem<Exec>::rebuild() {
+  sort_fluid();
+  pack();
+  if (walls_move_) sort_walls();
+  const auto cutoff = static_cast<float>(2.0 * parameters_.h + parameters_.skin);
+  fluid_fluid_.build(set_.view(), record_.data(), set_.view(), record_.data(), cutoff);
+  fluid_wall_.build(set_.view(), record_.data(), wall_set_.view(), wall_record_.data(), cutoff);
+  wall_fluid_.build(wall_set_.view(), wall_record_.data(), set_.view(), record_.data(), cutoff);
+  moved_ = 0.0;
+}
+
+template <class Exec>
+void FluidSystem<Exec>::enable_coupling() {
+  const auto n = static_cast<std::size_t>(slots());
+  porosity_.resize_discard(n);
+  exec::parallel_for(exec_, "sph::porosity", slots(), SetOne{porosity_.data()});
+  external_.resize_discard(n);
+  external_.fill_bytes(0);
+  coupled_ = true;
+}
+
+template <class Exec>
+void FluidSystem<Exec>::thin_by_porosity() {
+  exec::parallel_for(exec_, "sph::thin", slots(),
+                     Thin{id_.data(), porosity_.data(), density_.data(), mass_share_.data()});
+  pack();
+}
+
+template <class Exec>
+FluidTable FluidSystem<Exec>::table(float density_lag) const {
+  const auto position = position_.to_host();
+  const auto velocity = velocity_.to_host();
+  const auto density = density_.to_host();
+  const auto share = mass_share_.to_host();
+  const auto porosity = coupled_ ? porosity_.to_host() : std::vector<float>();
+  const auto rate = rate_.to_host();
+  const auto id = id_.to_host();
+  std::vector<std::size_t> order;
+  for (std::size_t s = 0; s < id.size(); ++s) if (id[s] != no_particle) order.push_back(s);
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return id[a] < id[b]; });
+  FluidTable t;
+  const double stiffness = parameters_.reference_density * parameters_.sound_speed * parameters_.sound_speed;
+  for (std::size_t s : order) {
+    const float eps = coupled_ ? porosity[s] : 1.0f;
+    const float D = (1.0f + density[s] + density_lag * rate[16 * (s / 4) + 12 + s % 4]) / eps - 1.0f;
+    t.position.push_back(domain_.metres(position[s]));
+    t.velocity.push_back(velocity[s]);
+    t.density.push_back(static_cast<float>(parameters_.reference_density * (1.0 + static_cast<double>(D))));
+    t.pressure.push_back(static_cast<float>(stiffness * static_cast<double>(tait_pressure(D))));
+    t.porosity.push_back(eps);
+    t.mass_share.push_back(share[s]);
+    t.id.push_back(id[s]);
+  }
+  return t;
+}
+
+template <class Exec>
+BoundaryTable FluidSystem<Exec>::wall_table() const {
+  const auto position = wall_position_.to_host();
+  const auto velocity = wall_velocity_.to_host();
+  const auto record = wall_record_.to_host();
+  const auto id = wall_id_.to_host();
+  const auto body = wall_body_.to_host();
+  std::vector<std::size_t> order;
+  for (std::size_t s = 0; s < id.size(); ++s) if (id[s] != no_particle) order.push_back(s);
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return id[a] < id[b]; });
+  BoundaryTable t;
+  const double stiffness = parameters_.reference_density * parameters_.sound_speed * parameters_.sound_speed;
+  for (std::size_t s : order) {
+    t.position.push_back(domain_.metres(position[s]));
+    t.velocity.push_back(velocity[s]);
+    t.body.push_back(body[s]);
+    t.pressure.push_back(static_cast<float>(stiffness * static_cast<double>(record[32 * (s / 4) + 28 + s % 4])));
+  }
+  return t;
+}
+
+template class FluidSystem<exec::CompiledBackend>;
+
+}  // namespace gdesp::sph

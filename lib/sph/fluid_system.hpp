@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The water and its walls on one back end: state by slot, lists, and the passes and updates that the time schemes
+// are made of (simulation/). Water and walls are two ClusterSets with cells two spacings wide.
+#pragma once
+
+#include <vector>
+
+#include "neighbors/cluster_list.hpp"
+#include "particles/particle_tables.hpp"
+#include "sph/fluid_parameters.hpp"
+#include "sph/fluid_views.hpp"
+#include "sph/pressure_and_viscosity.hpp"
+
+namespace gdesp::sph {
+
+/// Largest values over the fluid, for the time step and the guard.
+struct FluidExtremes {
+  float speed2 = 0.0f;         ///< (m/s)^2
+  float acceleration2 = 0.0f;  ///< (m/s2)^2, without gravity at rest counted
+  float density_error = 0.0f;  ///< |rho/rho0 - 1|, true density
+  int non_finite = 0;
+};
+
+/// Sums over the fluid, in double precision.
+struct FluidSums {
+  double mass = 0.0;              ///< kg
+  Vec3d momentum;                 ///< kg m/s
+  double kinetic_energy = 0.0;    ///< J
+  double potential_energy = 0.0;  ///< J, m g . (origin - r)
+  double elastic_energy = 0.0;    ///< J, of compression
+  Index particles = 0;
+};
+
+/// Where a body is now, for its wall particles: r = centre + R (r_start - centre_start).
+struct WallBodyState {
+  Vec3d centre_start, centre;                          ///< m, case coordinates
+  float rotation[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};     ///< R, row by row
+  Vec3f velocity, angular_velocity;                    ///< m/s, rad/s
+  Vec3f acceleration;                                  ///< m/s2, of the centre
+  int present = 1;                                     ///< 0: removed
+};
+
+template <class Exec>
+class FluidSystem {
+ public:
+  FluidSystem(const Exec& exec, const Domain& domain, const FluidParameters& parameters, const FluidTable& fluid,
+              const BoundaryTable& walls);
+
+  // State, by slot.
+  Index slots() const { return set_.slots(); }
+  Index particles() const { return set_.particles(); }
+  Index wall_particles() const { return wall_set_.particles(); }
+  Index lost() const { return lost_; }
+  const FluidParameters& parameters() const { return parameters_; }
+  const ClusterSet<Exec>& set() const { return set_; }
+  const ClusterSet<Exec>& wall_set() const { return wall_set_; }
+  const float* records() const { return record_.data(); }
+  const float* wall_records() const { return wall_record_.data(); }
+  const FixedPosition* positions() const { return position_.data(); }
+  float* porosity() { return porosity_.data(); }                 ///< per slot; 1 without grains
+  Vec3f* external_acceleration() { return external_.data(); }    ///< per slot, m/s2: the reaction of grains
+  const float* mass_share() const { return mass_share_.data(); }
+  const std::uint32_t* ids() const { return id_.data(); }
+  /// Allocates what coupling needs: porosity (1) and external acceleration (0) by slot.
+  void enable_coupling();
+  /// At the start, once porosity is known: the water between grains has the share eps of a particle's mass.
+  void thin_by_porosity();
+
+  // Neighbours.
+  /// Sorts both sets and builds the lists with the skin.
+  void rebuild();
+  /// True when some particle may have moved more than half the skin since the last rebuild.
+  bool lists_are_stale(double next_move) const { return 2.0 * (moved_ + next_move) > parameters_.skin; }
+  void note_move(double metres) { moved_ += metres; }
+
+  // Parts of a step (simulation/time_schemes).
+  void half_drift(float dt_position, float dt_density);  ///< r += v dt_position, D += dD dt_density, pack
+  void extrapolate_walls();
+  void momentum_pass();
+  void continuity_pass();
+  void combined_pass();
+  void wall_continuity_pass();                           ///< `dynamic` walls
+  void kick_drift(float dt, float dt_position);          ///< v += a dt, r += v dt_position, pack
+  void verlet_predict(float dt);                         ///< paper A.3; records hold the predicted v and rho
+  void verlet_correct(float dt);                         ///< paper A.1, A.2
+  void evolve_dynamic_walls(float dt);                   ///< D of wall particles, `dynamic` walls
+  void move_walls(const std::vector<WallBodyState>& bodies);  ///< index: body number - 1
+  void pack();                                           ///< records from the state
+
+  FluidExtremes extremes();
+  FluidSums sums();
+  /// To the host, in the order of ids. `density_lag` (s): what a staggered scheme still owes the densities.
+  FluidTable table(float density_lag) const;
+  BoundaryTable wall_table() const;
+
+ private:
+  void start_fluid(const FluidTable& fluid);
+  void start_walls(const BoundaryTable& walls);
+  void sort_fluid();
+  void sort_walls();
+  void pack_walls();
+  template <bool M, bool C> void run_fluid_pass(const char* name);
+  template <bool M, bool C, Viscosity K> void run_fluid_pass_kind(const char* name);
+  FluidPairLaw pair_law() const;
+  FluidStateView state_view();
+  RecordPacker packer();
+
+  Exec exec_;
+  Domain domain_;
+  FluidParameters parameters_;
+  bool coupled_ = false;
+  double moved_ = 0.0;
+  Index lost_ = 0;
+  ClusterSet<Exec> set_, wall_set_;
+  ClusterList<Exec> fluid_fluid_, fluid_wall_, wall_fluid_;
+
+  // Water, by slot.
+  Array<FixedPosition, Exec> position_;
+  Array<Vec3f, Exec> velocity_;
+  Array<float, Exec> density_;                  ///< D = rho/rho0 - 1 of the superficial density
+  Array<std::uint32_t, Exec> id_;
+  Array<float, Exec> mass_share_;               ///< mass / (rho0 dp^dimensions)
+  Array<float, Exec> porosity_;                 ///< coupled runs only
+  Array<Vec3f, Exec> external_;                 ///< coupled runs only
+  Array<float, Exec> record_;                   ///< x y z B vx vy vz A, 4 each, per cluster
+  Array<float, Exec> rate_;                     ///< ax ay az dD, 4 each, per cluster: m/s2 and 1/s
+
+  // Walls, by slot.
+  Array<FixedPosition, Exec> wall_position_, wall_start_;
+  Array<Vec3f, Exec> wall_velocity_;
+  Array<std::int32_t, Exec> wall_body_;
+  Array<float, Exec> wall_density_;
+  Array<float, Exec> wall_friction_;            ///< 1: no slip, 0: free slip
+  Array<std::uint32_t, Exec> wall_id_;
+  Array<float, Exec> wall_record_, wall_rate_;
+  Array<WallBodyState, Exec> wall_bodies_;
+
+  // Scratch for permutations, one per element size.
+  Array<FixedPosition, Exec> scratch_position_;
+  Array<Vec3f, Exec> scratch_vector_;
+  Array<float, Exec> scratch_float_;
+  Array<std::uint32_t, Exec> scratch_uint_;
+  Array<std::int32_t, Exec> scratch_int_;
+  bool walls_move_ = false;
+};
+
+}  // namespace gdesp::sph

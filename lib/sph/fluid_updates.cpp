@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The pointwise parts of a fluid step: move, accelerate, equation of state, records, extremes and sums.
+#include <algorithm>
+
+#include "sph/fluid_system.hpp"
+
+namespace gdesp::sph {
+namespace {
+
+struct HalfDrift {
+  FluidStateView state;
+  RecordPacker packer;
+  float dt_position, dt_density;
+  GDESP_HD void operator()(Index s) const {
+    if (packer.id[s] != no_particle) {
+      const Vec3f v = state.velocity[s];
+      state.position[s] = packer.domain.moved(state.position[s], static_cast<Vec3d>(v * dt_position));
+      state.density[s] += state.rate_at(s, 3) * dt_density;
+    }
+    packer(s, state.position[s], state.velocity[s], state.density[s]);
+  }
+};
+
+struct KickDrift {
+  FluidStateView state;
+  RecordPacker packer;
+  float dt, dt_position;
+  GDESP_HD void operator()(Index s) const {
+    if (packer.id[s] != no_particle) {
+      const Vec3f v = state.velocity[s] + state.acceleration(s) * dt;
+      state.velocity[s] = v;
+      state.position[s] = packer.domain.moved(state.position[s], static_cast<Vec3d>(v * dt_position));
+    }
+    packer(s, state.position[s], state.velocity[s], state.density[s]);
+  }
+};
+
+struct VerletPredict {
+  FluidStateView state;
+  RecordPacker packer;
+  float dt;
+  GDESP_HD void operator()(Index s) const {
+    Vec3f predicted{};
+    float D = 0.0f;
+    if (packer.id[s] != no_particle) {
+      const Vec3f half_kick = state.acceleration(s) * (0.5f * dt);
+      const float half_rate = state.rate_at(s, 3) * (0.5f * dt);
+      const Vec3f v = state.velocity[s] + half_kick;  // mid-step velocity: r = r + v dt + a dt^2 / 2
+      state.velocity[s] = v;
+      state.density[s] += half_rate;
+      state.position[s] = packer.domain.moved(state.position[s], static_cast<Vec3d>(v * dt));
+      predicted = v + half_kick;
+      D = state.density[s] + half_rate;
+    }
+    packer(s, state.position[s], predicted, D);
+  }
+};
+
+struct VerletCorrect {
+  FluidStateView state;
+  const std::uint32_t* id;
+  float dt;
+  GDESP_HD void operator()(Index s) const {
+    if (id[s] == no_particle) return;
+    state.velocity[s] += state.acceleration(s) * (0.5f * dt);
+    state.density[s] += state.rate_at(s, 3) * (0.5f * dt);
+  }
+};
+
+struct EvolveWalls {
+  const std::uint32_t* count;
+  const float* rate;
+  float* density;
+  float* record;
+  bool paper_form;
+  float dt;
+  GDESP_HD void operator()(Index s) const {
+    const Index c = s / exec::cluster_size;
+    if (count[c] == 0) return;
+    // A dynamic boundary particle never pulls: its density stays at or above the reference.
+    const float D = real::max(density[s] + rate[s] * dt, 0.0f);
+    density[s] = D;
+    EvolvedWallReset{density, paper_form, record}(s);
+  }
+};
+
+struct ExtremeOf {
+  FluidStateView state;
+  const std::uint32_t* id;
+  const float* porosity;
+  GDESP_HD FluidExtremes operator()(Index s) const {
+    FluidExtremes e;
+    if (id[s] == no_particle) return e;
+    const Vec3f v = state.velocity[s], a = state.acceleration(s);
+    e.speed2 = dot(v, v);
+    e.acceleration2 = dot(a, a);
+    const float ratio = (1.0f + state.density[s]) / (porosity ? porosity[s] : 1.0f);
+    e.density_error = ::fabsf(ratio - 1.0f);
+    const float sum = e.speed2 + e.acceleration2 + e.density_error;
+    e.non_finite = (sum - sum == 0.0f) ? 0 : 1;
+    return e;
+  }
+};
+struct CombineExtremes {
+  GDESP_HD FluidExtremes operator()(const FluidExtremes& a, const FluidExtremes& b) const {
+    FluidExtremes e;
+    e.speed2 = real::max(a.speed2, b.speed2);
+    e.acceleration2 = real::max(a.acceleration2, b.acceleration2);
+    e.density_error = real::max(a.density_error, b.density_error);
+    e.non_finite = a.non_finite + b.non_finite;
+    return e;
+  }
+};
+
+struct SumOf {
+  Domain domain;
+  FluidStateView state;
+  const std::uint32_t* id;
+  const float* mass_share;
+  const float* porosity;
+  double particle_mass, c2;
+  Vec3d gravity;
+  GDESP_HD FluidSums operator()(Index s) const {
+    FluidSums sum;
+    if (id[s] == no_particle) return sum;
+    const double m = particle_mass * static_cast<double>(mass_share[s]);
+    const auto v = static_cast<Vec3d>(state.velocity[s]);
+    sum.particles = 1;
+    sum.mass = m;
+    sum.momentum = v * m;
+    sum.kinetic_energy = 0.5 * m * dot(v, v);
+    sum.potential_energy = -m * dot(gravity, domain.metres(state.position[s]));
+    // Tait: work of compression per mass, c^2 (x^6/42 + 1/(7 x) - 1/6), x = rho/rho0.
+    const double x = (1.0 + static_cast<double>(state.density[s])) / (porosity ? static_cast<double>(porosity[s]) : 1.0);
+    const double x2 = x * x;
+    sum.elastic_energy = m * c2 * (x2 * x2 * x2 / 42.0 + 1.0 / (7.0 * x) - 1.0 / 6.0);
+    return sum;
+  }
+};
+struct AddSums {
+  GDESP_HD FluidSums operator()(const FluidSums& a, const FluidSums& b) const {
+    FluidSums s;
+    s.mass = a.mass + b.mass;
+    s.momentum = a.momentum + b.momentum;
+    s.kinetic_energy = a.kinetic_energy + b.kinetic_energy;
+    s.potential_energy = a.potential_energy + b.potential_energy;
+    s.elastic_energy = a.elastic_energy + b.elastic_energy;
+    s.particles = a.particles + b.particles;
+    return s;
+  }
+};
+
+// Wall particles follow their bodies.
+struct MoveWalls {
+  Domain domain;
+  const std::int32_t* body;
+  const std::uint32_t* id;
+  const FixedPosition* start;
+  const WallBodyState* bodies;
+  FixedPosition* position;
+  Vec3f* velocity;
+  GDESP_HD void operator()(Index s) const {
+    if (id[s] == no_particle || body[s] == 0) return;
+    const WallBodyState b = bodies[body[s] - 1];
+    const Vec3d arm0 = domain.metres(start[s]) - b.centre_start;
+    const Vec3d arm{b.rotation[0] * arm0.x + b.rotation[1] * arm0.y + b.rotation[2] * arm0.z,
+                    b.rotation[3] * arm0.x + b.rotation[4] * arm0.y + b.rotation[5] * arm0.z,
+                    b.rotation[6] * arm0.x + b.rotation[7] * arm0.y + b.rotation[8] * arm0.z};
+    position[s] = domain.fixed(b.centre + arm);
+    velocity[s] = b.velocity + cross(b.angular_velocity, static_cast<Vec3f>(arm));
+  }
+};
+
+struct PackWalls {
+  Domain domain;
+  const Vec3<std::int32_t>* cluster_tile;
+  const std::uint32_t* id;
+  const std::int32_t* body;
+  const WallBodyState* bodies;  // null: none move
+  const FixedPosition* position;
+  const Vec3f* velocity;
+  float* record;
+  GDESP_HD void operator()(Index s) const {
+    const Index c = s / exec::cluster_size;
+    float* r = record + record_offset(c) + s % exec::cluster_size;
+    const bool absent = id[s] == no_particle || (bodies && body[s] > 0 && !bodies[body[s] - 1].present);
+    const Vec3f x = absent ? Vec3f{padding_coordinate, padding_coordinate, padding_coordinate}
+                           : domain.relative_to_tile(position[s], cluster_tile[c]);
+    const Vec3f v = absent ? Vec3f{} : velocity[s];
+    r[0] = x.x;
+    r[4] = x.y;
+    r[8] = x.z;
+    r[16] = v.x;
+    r[20] = v.y;
+    r[24] = v.z;
+  }
+};
+
+}  // namespace
+
+template <class Exec>
+FluidStateView FluidSystem<Exec>::state_view() {
+  return {position_.data(), velocity_.data(), density_.data(), rate_.data(), coupled_ ? external_.data() : nullptr,
+          static_cast<Vec3f>(parameters_.gravity)};
+}
+
+template <class Exec>
+RecordPacker FluidSystem<Exec>::packer() {
+  return {domain_, parameters_.paper_form, set_.view().cluster_tile, id_.data(),
+          coupled_ ? porosity_.data() : nullptr, mass_share_.data(), record_.data()};
+}
+
+template <class Exec>
+void FluidSystem<Exec>::half_drift(float dt_position, float dt_density) {
+  exec::parallel_for(exec_, "sph::half_drift", slots(), HalfDrift{state_view(), packer(), dt_position, dt_density});
+}
+
+template <class Exec>
+void FluidSystem<Exec>::pack() {
+  exec::parallel_for(exec_, "sph::pack", slots(), HalfDrift{state_view(), packer(), 0.0f, 0.0f});
+}
+
+template <class Exec>
+void FluidSystem<Exec>::kick_drift(float dt, float dt_position) {
+  exec::parallel_for(exec_, "sph::kick_drift", slots(), KickDrift{state_view(), packer(), dt, dt_position});
+}
+
+template <class Exec>
+void FluidSystem<Exec>::verlet_predict(float dt) {
+  exec::parallel_for(exec_, "sph::verlet_predict", slots(), VerletPredict{state_view(), packer(), dt});
+}
+
+template <class Exec>
+void FluidSystem<Exec>::verlet_correct(float dt) {
+  exec::parallel_for(exec_, "sph::verlet_correct", slots(), VerletCorrect{state_view(), id_.data(), dt});
+}
+
+template <class Exec>
+void FluidSystem<Exec>::evolve_dynamic_walls(float dt) {
+  if (wall_set_.clusters() == 0 || parameters_.extrapolated_walls) return;
+  exec::parallel_for(exec_, "sph::evolve_walls", wall_set_.slots(),
+                     EvolveWalls{wall_fluid_.view().count, wall_rate_.data(), wall_density_.data(),
+                                 wall_record_.data(), parameters_.paper_form, dt});
+}
+
+template <class Exec>
+FluidExtremes FluidSystem<Exec>::extremes() {
+  return exec::reduce(exec_, "sph::extremes", slots(), FluidExtremes{},
+                      ExtremeOf{state_view(), id_.data(), coupled_ ? porosity_.data() : nullptr}, CombineExtremes{});
+}
+
+template <class Exec>
+FluidSums FluidSystem<Exec>::sums() {
+  const double c = parameters_.sound_speed;
+  const double mass = parameters_.reference_density * std::pow(parameters_.dp, parameters_.dimensions);
+  return exec::reduce(exec_, "sph::sums", slots(), FluidSums{},
+                      SumOf{domain_, state_view(), id_.data(), mass_share_.data(),
+                            coupled_ ? porosity_.data() : nullptr, mass, c * c, parameters_.gravity},
+                      AddSums{});
+}
+
+template <class Exec>
+void FluidSystem<Exec>::pack_walls() {
+  exec::parallel_for(exec_, "sph::pack_walls", wall_set_.slots(),
+                     PackWalls{domain_, wall_set_.view().cluster_tile, wall_id_.data(), wall_body_.data(),
+                               wall_bodies_.empty() ? nullptr : wall_bodies_.data(), wall_position_.data(),
+                               wall_velocity_.data(), wall_record_.data()});
+}
+
+template <class Exec>
+void FluidSystem<Exec>::move_walls(const std::vector<WallBodyState>& bodies) {
+  if (bodies.empty() || wall_set_.clusters() == 0) return;
+  wall_bodies_.assign(bodies);
+  exec::parallel_for(exec_, "sph::move_walls", wall_set_.slots(),
+                     MoveWalls{domain_, wall_body_.data(), wall_id_.data(), wall_start_.data(), wall_bodies_.data(),
+                               wall_position_.data(), wall_velocity_.data()});
+  pack_walls();
+}
+
+template FluidStateView FluidSystem<exec::CompiledBackend>::state_view();
+template RecordPacker FluidSystem<exec::CompiledBackend>::packer();
+template void FluidSystem<exec::CompiledBackend>::half_drift(float, float);
+template void FluidSystem<exec::CompiledBackend>::pack();
+template void FluidSystem<exec::CompiledBackend>::kick_drift(float, float);
+template void FluidSystem<exec::CompiledBackend>::verlet_predict(float);
+template void FluidSystem<exec::CompiledBackend>::verlet_correct(float);
+template void FluidSystem<exec::CompiledBackend>::evolve_dynamic_walls(float);
+template FluidExtremes FluidSystem<exec::CompiledBackend>::extremes();
+template FluidSums FluidSystem<exec::CompiledBackend>::sums();
+template void FluidSystem<exec::CompiledBackend>::pack_walls();
+template void FluidSystem<exec::CompiledBackend>::move_walls(const std::vector<WallBodyState>&);
+
+}  // namespace gdesp::sph

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// @eq sph.wall.extrapolation
+//   P_w = ( sum_f P_f W_wf + (g - a_w) . sum_f rho_f (r_w - r_f) W_wf ) / sum_f W_wf;  rho_w from P_w by the Tait law.
+//   P_w: pressure of a wall particle [Pa], f: fluid particles, a_w: acceleration of the wall [m/s2]. Not below zero:
+//   a wall does not pull. Source: Adami, Hu, Adams (2012), J. Comput. Phys. 231, 7057, eqs 27-28,
+//   doi:10.1016/j.jcp.2012.05.005.
+#pragma once
+
+#include "core/host_device.hpp"
+#include "core/real.hpp"
+#include "sph/wendland_c2.hpp"
+
+namespace gdesp::sph {
+
+template <class Real>
+struct WallSums {
+  Real weight{0.0f};             ///< sum W / alpha
+  Real pressure{0.0f};           ///< sum A_f W / alpha
+  Real rx{0.0f}, ry{0.0f}, rz{0.0f};  ///< sum (r_w - r_f) W / alpha, m
+};
+
+/// Adds fluid particle f. r = r_w - r_f.
+template <class Real>
+GDESP_HD inline void add_wall_pair(float inverse_support, const Real& rx, const Real& ry, const Real& rz,
+                                   const Real& A_f, WallSums<Real>& sums) {
+  using real::max;
+  using real::sqrt;
+  const Real t = max(Real(0.0f), Real(1.0f) - sqrt(rx * rx + ry * ry + rz * rz) * Real(inverse_support));
+  const Real w = wendland_shape(t);
+  sums.weight += w;
+  sums.pressure += w * A_f;
+  sums.rx += w * rx;
+  sums.ry += w * ry;
+  sums.rz += w * rz;
+}
+
+}  // namespace gdesp::sph

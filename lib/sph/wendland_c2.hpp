@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// @eq sph.kernel.wendland-c2
+//   W(r) = alpha (1 - q/2)^4 (1 + 2 q),  q = r/h in [0, 2], zero beyond;
+//   alpha = 21/(16 pi h^3) in three dimensions, 7/(4 pi h^2) in two.
+//   r: distance [m]; h: smoothing length [m]; W [1/m^3, 1/m^2]. Integral over space 1.
+//   Source: Wendland (1995), Adv. Comput. Math. 4, 389-396, doi:10.1007/BF02123482; constants as in Dehnen & Aly
+//   (2012), MNRAS 425, 1068, doi:10.1111/j.1365-2966.2012.21439.x. (The 7/(8 pi h^3) printed as eq. 4 of the G-DeSp
+//   paper does not integrate to one.)
+//   Coded with t = max(0, 1 - r/(2h)): W = alpha t^4 (5 - 4 t);  (dW/dr)/r = -(5 alpha/h^2) t^3, smooth at r = 0:
+//   no division, no cut-off test, and a particle adds nothing to itself.
+#pragma once
+
+#include "core/host_device.hpp"
+
+namespace gdesp::sph {
+
+inline constexpr double pi = 3.14159265358979323846;
+
+/// alpha, 1/m^dimensions.
+inline double wendland_normalisation(double h, int dimensions) {
+  return dimensions == 2 ? 7.0 / (4.0 * pi * h * h) : 21.0 / (16.0 * pi * h * h * h);
+}
+
+/// W / alpha at t.
+template <class Real>
+GDESP_HD inline Real wendland_shape(const Real& t) {
+  const Real t2 = t * t;
+  return t2 * t2 * (Real(5.0f) - Real(4.0f) * t);
+}
+
+/// -(dW/dr)/r * h^2/(5 alpha) at t; not negative.
+template <class Real>
+GDESP_HD inline Real wendland_slope_shape(const Real& t) {
+  return t * t * t;
+}
+
+}  // namespace gdesp::sph
