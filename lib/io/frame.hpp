@@ -4,6 +4,7 @@
 // bodies_00012.vtp (moved surfaces), fluid.pvd grains.pvd bodies.pvd, log.ndjson, run.json.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,9 @@ struct FramePaths { std::string fluid, grains, bodies; double time = 0.0; std::i
 /// diameter, angular_velocity, group. Positions: case coordinates, float64 (ParaView shows the offset in field data).
 class FrameWriter {
  public:
-  /// `offset` goes into each file as field data, with the time and dp.
+  /// `offset` goes into each file as field data, with the time and dp. A folder that holds something is refused
+  /// (Error(usage)) unless `force` (an earlier run's frames are removed) or `resume` (frames go on after those
+  /// there; one that is as late as a new frame gives way to it).
   FrameWriter(std::string run_folder, Vec3d offset, double dp, bool force, bool resume);
   FramePaths write(const Frame& frame);
   const std::string& folder() const { return folder_; }
@@ -58,5 +61,9 @@ TriangleTable read_triangles_vtp(const std::string& path);
 std::vector<FramePaths> list_frames(const std::string& run_folder);
 /// The case a run belongs to (absolute path).
 std::string run_case_path(const std::string& run_folder);
+/// Writes case.link into the run folder, so that run_case_path finds the case.
+void write_run_case_path(const std::string& run_folder, const std::string& case_path);
+/// States of the moving bodies in a bodies_*.vtp frame; empty when the file has none.
+std::vector<BodyState> read_body_states(const std::string& path);
 
 }  // namespace gdesp
