@@ -84,7 +84,7 @@ install_packages() {
     die "packages are missing, and installing them needs root; there is no sudo. As root, run:
   apt-get update && apt-get install --no-install-recommends $list"
   fi
-  announce "packages: installing $(wc -l <<<"$missing") and what they need (about 500 MB to download, 2.2 GB on disk when none is there)"
+  announce "packages: installing $(wc -l <<<"$missing") and what they need (about 600 MB to download, 3 GB on disk when none is there)"
   mkdir -p "$1"
   : >"$log"
   [[ -z $(dpkg --audit 2>/dev/null) ]] || as_root dpkg --configure -a >>"$log" 2>&1 || true  # an installation cut short
@@ -139,9 +139,9 @@ configure() {
 ninja_progress() {
   local line started=$SECONDS left announced=no
   while IFS= read -r line; do
-    if [[ $line =~ ^\[([0-9]+)/([0-9]+)\]\ (.*) ]]; then
+    if [[ $line =~ ^\[([0-9]+)/([0-9]+)\]\ (.*) && $line != *"Re-checking glob"* ]]; then
       local done_=${BASH_REMATCH[1]} all=${BASH_REMATCH[2]} what=${BASH_REMATCH[3]##*/}
-      if [[ $announced == no && ${BASH_REMATCH[3]} != *"Re-checking"* ]]; then
+      if [[ $announced == no ]]; then
         announce "building, $1 at once"
         announced=yes
       fi
