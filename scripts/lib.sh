@@ -80,8 +80,8 @@ install_packages() {
   missing=$(missing_packages)
   [[ -n $missing ]] || { say "packages: all $(wanted_packages | wc -l) there"; return 0; }
   list=$(tr '\n' ' ' <<<"$missing")
-  if (( EUID != 0 )) && ! command -v sudo >/dev/null; then
-    die "packages are missing, and installing them needs root; there is no sudo. As root, run:
+  if (( EUID != 0 )) && ! { command -v sudo && sudo true; } >/dev/null; then
+    die "packages are missing, and installing them needs root (sudo is absent or refused). As root, run:
   apt-get update && apt-get install --no-install-recommends $list"
   fi
   announce "packages: installing $(wc -l <<<"$missing") and what they need (about 600 MB to download, 3 GB on disk when none is there)"
