@@ -47,7 +47,7 @@ void run(long wanted, int threads) {
   print("sph_momentum", particles, threads, "cpu", particles / momentum, "particle evaluations/s");
   const double continuity = best_seconds(7, [&] { fluid.continuity_pass(); });
   print("sph_continuity", particles, threads, "cpu", particles / continuity, "particle evaluations/s");
-  const double build = best_seconds(5, [&] { fluid.rebuild(); });
+  const double build = best_seconds(5, [&] { fluid.rebuild(0.0); });
   print("neighbour_build", particles, threads, "cpu", particles / build, "particles/s");
 }
 

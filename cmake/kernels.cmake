@@ -33,7 +33,7 @@ if(CMAKE_BUILD_TYPE STREQUAL "Debug")
   list(REMOVE_ITEM GDESP_KERNEL_FLAGS -O3)
 endif()
 if(GDESP_NATIVE)
-  list(APPEND GDESP_KERNEL_FLAGS -march=native -mprefer-vector-width=512)
+  list(APPEND GDESP_KERNEL_FLAGS -march=native -mprefer-vector-width=512 -Wno-maybe-uninitialized)
 endif()
 
 function(gdesp_kernel_target target)

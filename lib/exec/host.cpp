@@ -26,7 +26,7 @@ template <class Body>
 void for_blocks(std::size_t bytes, const Body& body) {
   constexpr std::size_t block = std::size_t{1} << 20;
   const long blocks = static_cast<long>((bytes + block - 1) / block);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (blocks > 4)
   for (long b = 0; b < blocks; ++b) {
     const std::size_t begin = static_cast<std::size_t>(b) * block;
     body(begin, std::min(block, bytes - begin));
@@ -121,7 +121,7 @@ struct RadixPass {
   std::size_t digit(std::uint64_t key) const { return (key >> shift) & (buckets - 1); }
 
   void run(std::vector<Index>& offsets) const {
-    const int threads = omp_get_max_threads();
+    const int threads = count > detail::small_loop ? omp_get_max_threads() : 1;
     offsets.assign(buckets * static_cast<std::size_t>(threads), 0);
 #pragma omp parallel num_threads(threads)
     {

@@ -104,4 +104,31 @@ struct HostLanes {
 };
 #endif
 
+/// Largest values over a row pass, each not negative; the order in which they are taken does not matter.
+struct Largest {
+  float value[4] = {0.0f, 0.0f, 0.0f, 0.0f};
+};
+
+/// Takes `amount` places from a counter that all bodies share; returns the first.
+GDESP_HD inline std::uint32_t add_to_counter(std::uint32_t* counter, std::uint32_t amount) {
+#if defined(__CUDA_ARCH__)
+  return atomicAdd(counter, amount);
+#else
+  return __atomic_fetch_add(counter, amount, __ATOMIC_RELAXED);
+#endif
+}
+
+/// Adds to a sum in whole units: exact, so the order in which bodies add does not matter.
+GDESP_HD inline void add_units(std::int64_t* sum, std::int64_t units) {
+#if defined(__CUDA_ARCH__)
+  atomicAdd(reinterpret_cast<unsigned long long*>(sum), static_cast<unsigned long long>(units));
+#else
+  __atomic_fetch_add(sum, units, __ATOMIC_RELAXED);
+#endif
+}
+
 }  // namespace gdesp::exec
+
+#if !defined(__CUDACC__)
+#include "exec/host_row_lanes.hpp"
+#endif

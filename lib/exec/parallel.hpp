@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The verbs of the execution layer: parallel_for, pair_pass (16 lanes a cluster, exec/lanes.hpp), reduce, scan,
-// sort. Bodies are named functors; each writes only what its own index owns, so results do not depend on the
+// The verbs of the execution layer: parallel_for, pair_pass (16 lanes a cluster, exec/lanes.hpp), row_pass (8 lanes
+// a row), reduce, scan, sort. Bodies are named functors; each writes only what its own index owns, so results do not depend on the
 // number of threads. Device versions: exec/cuda/parallel.cuh.
 #pragma once
 
@@ -20,11 +20,16 @@
 
 namespace gdesp::exec {
 
+namespace detail {
+// Below these counts one thread is faster than waking the others.
+inline constexpr Index small_loop = 4096, small_pass = 256;
+}  // namespace detail
+
 /// body(i) for i in [0, count).
 template <class Body>
 void parallel_for(const OpenMP&, const char* name, Index count, const Body& body) {
   const ProfileScope scope(name);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (count > detail::small_loop)
   for (Index i = 0; i < count; ++i) body(i);
 }
 
@@ -32,8 +37,28 @@ void parallel_for(const OpenMP&, const char* name, Index count, const Body& body
 template <class Body>
 void pair_pass(const OpenMP&, const char* name, Index clusters, const Body& body) {
   const ProfileScope scope(name);
-#pragma omp parallel for schedule(dynamic, 64)
+#pragma omp parallel for schedule(dynamic, 64) if (clusters > detail::small_pass)
   for (Index c = 0; c < clusters; ++c) body(c, HostLanes{});
+}
+
+/// body(row, lanes) for each row of eight lanes; `largest` becomes the largest of what the bodies return. Bodies may
+/// write only what belongs to their row.
+template <class Body>
+void row_pass(const OpenMP&, const char* name, Index rows, const Body& body, Largest* largest) {
+  const ProfileScope scope(name);
+  Largest total;
+#pragma omp parallel
+  {
+    Largest mine;
+#pragma omp for schedule(dynamic, 128) nowait
+    for (Index r = 0; r < rows; ++r) {
+      const Largest one = body(r, HostRowLanes{});
+      for (int k = 0; k < 4; ++k) mine.value[k] = max(mine.value[k], one.value[k]);
+    }
+#pragma omp critical(gdesp_row_pass)
+    for (int k = 0; k < 4; ++k) total.value[k] = max(total.value[k], mine.value[k]);
+  }
+  *largest = total;
 }
 
 /// combine over body(i), i in [0, count), starting from `start`; the order is fixed (blocks of 4096).
@@ -43,7 +68,7 @@ T reduce(const OpenMP&, const char* name, Index count, T start, const Body& body
   constexpr Index block = 4096;
   const Index blocks = (count + block - 1) / block;
   std::vector<T> partial(static_cast<std::size_t>(blocks), start);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (blocks > 1)
   for (Index b = 0; b < blocks; ++b) {
     T sum = start;
     const Index end = std::min(count, (b + 1) * block);
@@ -59,7 +84,7 @@ T reduce(const OpenMP&, const char* name, Index count, T start, const Body& body
 template <class T>
 T exclusive_scan(const OpenMP&, const char* name, const T* in, T* out, Index count) {
   const ProfileScope scope(name);
-  const int threads = omp_get_max_threads();
+  const int threads = count > detail::small_loop ? omp_get_max_threads() : 1;
   std::vector<T> sums(static_cast<std::size_t>(threads) + 1, T{0});
 #pragma omp parallel num_threads(threads)
   {

@@ -146,7 +146,8 @@ FluidPairLaw FluidSystem<Exec>::pair_law() const {
   const double c = p.sound_speed;
   FluidPairLaw law{};
   law.inverse_support = static_cast<float>(1.0 / (2.0 * p.h));
-  law.slope = static_cast<float>(std::pow(p.dp, p.dimensions) * 5.0 * alpha / (p.h * p.h));
+  const double correction = p.paper_form ? 1.0 : 1.0 / lattice_gradient_moment(p.h / p.dp, p.dimensions);
+  law.slope = static_cast<float>(correction * std::pow(p.dp, p.dimensions) * 5.0 * alpha / (p.h * p.h));
   law.artificial = static_cast<float>(p.artificial_viscosity * p.h / c);
   law.eta2 = static_cast<float>(0.01 * p.h * p.h);
   law.morris = static_cast<float>(2.0 * p.kinematic_viscosity / (c * c));

@@ -67,10 +67,10 @@ class FluidSystem {
   void thin_by_porosity();
 
   // Neighbours.
-  /// Sorts both sets and builds the lists with the skin.
-  void rebuild();
+  /// Sorts both sets and builds the lists. The skin suits particles that move `move_per_step` metres a step at most.
+  void rebuild(double move_per_step);
   /// True when some particle may have moved more than half the skin since the last rebuild.
-  bool lists_are_stale(double next_move) const { return 2.0 * (moved_ + next_move) > parameters_.skin; }
+  bool lists_are_stale(double next_move) const { return 2.0 * (moved_ + next_move) > skin_; }
   void note_move(double metres) { moved_ += metres; }
 
   // Parts of a step (simulation/time_schemes).
@@ -109,7 +109,7 @@ class FluidSystem {
   Domain domain_;
   FluidParameters parameters_;
   bool coupled_ = false;
-  double moved_ = 0.0;
+  double moved_ = 0.0, skin_ = 0.0;
   Index lost_ = 0;
   ClusterSet<Exec> set_, wall_set_;
   ClusterList<Exec> fluid_fluid_, fluid_wall_, wall_fluid_;

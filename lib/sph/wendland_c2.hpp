@@ -10,6 +10,9 @@
 //   no division, no cut-off test, and a particle adds nothing to itself.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/host_device.hpp"
 
 namespace gdesp::sph {
@@ -32,6 +35,23 @@ GDESP_HD inline Real wendland_shape(const Real& t) {
 template <class Real>
 GDESP_HD inline Real wendland_slope_shape(const Real& t) {
   return t * t * t;
+}
+
+/// sum_j V0 (r_x^2) (-(dW/dr)/r) over a cubic lattice of spacing dp: what the gradient of a linear field comes out as,
+/// 1 in the continuum limit. Dividing the gradient by it makes hydrostatics exact on the lattice (0.974 and 0.979 at
+/// h = 1.3 dp in two and three dimensions, that is 2-3 % of every pressure otherwise).
+inline double lattice_gradient_moment(double h_over_dp, int dimensions) {
+  const int reach = static_cast<int>(2.0 * h_over_dp) + 1;
+  const int reach_y = dimensions == 2 ? 0 : reach;
+  double moment = 0.0;
+  for (int x = -reach; x <= reach; ++x)
+    for (int y = -reach_y; y <= reach_y; ++y)
+      for (int z = -reach; z <= reach; ++z) {
+        const double r = std::sqrt(static_cast<double>(x * x + y * y + z * z));
+        const double t = std::max(0.0, 1.0 - r / (2.0 * h_over_dp));
+        moment += t * t * t * x * x;
+      }
+  return moment * 5.0 * wendland_normalisation(h_over_dp, dimensions) / (h_over_dp * h_over_dp);
 }
 
 }  // namespace gdesp::sph

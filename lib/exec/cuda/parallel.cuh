@@ -40,6 +40,44 @@ struct DeviceLanes {
   }
 };
 
+/// One of the eight lanes of a row, held by one thread of a quarter of a warp.
+struct DeviceRowLanes {
+  using Real = float;
+  using Int = std::int32_t;
+  using Mask = bool;
+  int lane;                ///< 0..7
+  unsigned quarter_mask;   ///< of this quarter of the warp
+
+  __device__ Real load(const float* p) const { return p[lane]; }
+  __device__ Int load(const std::int32_t* p) const { return p[lane]; }
+  __device__ void store(float* p, Real a) const { p[lane] = a; }
+  __device__ void store(std::int32_t* p, Int a) const { p[lane] = a; }
+  __device__ Int bits(Real a) const { return __float_as_int(a); }
+  __device__ Real value(Int a) const { return static_cast<float>(a); }
+  __device__ Int select_int(bool c, Int a, Int b) const { return c ? a : b; }
+  __device__ void gather4(const float* p, int stride, Int index, Real out[4]) const {
+    const float4 q = *reinterpret_cast<const float4*>(p + static_cast<std::int64_t>(index) * stride);
+    out[0] = q.x;
+    out[1] = q.y;
+    out[2] = q.z;
+    out[3] = q.w;
+  }
+  __device__ Real gather(const float* p, Int index) const { return p[index]; }
+  __device__ float sum(Real a) const {
+    a += __shfl_xor_sync(quarter_mask, a, 4);
+    a += __shfl_xor_sync(quarter_mask, a, 2);
+    return a + __shfl_xor_sync(quarter_mask, a, 1);
+  }
+  __device__ float largest(Real a) const {
+    a = fmaxf(a, __shfl_xor_sync(quarter_mask, a, 4));
+    a = fmaxf(a, __shfl_xor_sync(quarter_mask, a, 2));
+    return fmaxf(a, __shfl_xor_sync(quarter_mask, a, 1));
+  }
+  __device__ bool any(bool m) const { return __any_sync(quarter_mask, m) != 0; }
+  __device__ bool leader() const { return lane == 0; }
+  __device__ void share_memory() const { __syncwarp(quarter_mask); }
+};
+
 namespace detail {
 
 inline constexpr int block_threads = 128;
@@ -57,6 +95,22 @@ __global__ void __launch_bounds__(block_threads) run_pair_pass(const Body body, 
   if (c >= clusters) return;
   const int in_warp = threadIdx.x & 31;
   body(c, DeviceLanes{in_warp & 15, in_warp < 16 ? 0x0000ffffu : 0xffff0000u});
+}
+
+template <class Body>
+__global__ void __launch_bounds__(block_threads) run_row_pass(const Body body, Index rows, Largest* largest) {
+  const std::int64_t thread = static_cast<std::int64_t>(blockIdx.x) * blockDim.x + threadIdx.x;
+  const Index r = static_cast<Index>(thread >> 3);
+  const int in_warp = threadIdx.x & 31;
+  Largest mine;
+  if (r < rows) mine = body(r, DeviceRowLanes{in_warp & 7, 0xffu << (in_warp & 24)});
+  __syncwarp();
+  for (int k = 0; k < 4; ++k) {
+    float value = mine.value[k];
+    for (int step = 16; step > 0; step >>= 1) value = fmaxf(value, __shfl_xor_sync(0xffffffffu, value, step));
+    // Not negative, so the order of the bits is the order of the values.
+    if (in_warp == 0 && value > 0.0f) atomicMax(reinterpret_cast<int*>(&largest->value[k]), __float_as_int(value));
+  }
 }
 
 inline cudaStream_t stream(const Cuda& exec) { return static_cast<cudaStream_t>(exec.stream); }
@@ -82,6 +136,16 @@ void pair_pass(const Cuda& exec, const char* name, Index clusters, const Body& b
   const std::int64_t threads = static_cast<std::int64_t>(clusters) * 16;
   const unsigned blocks = static_cast<unsigned>((threads + detail::block_threads - 1) / detail::block_threads);
   detail::run_pair_pass<<<blocks, detail::block_threads, 0, detail::stream(exec)>>>(body, clusters);
+  check(cudaGetLastError(), name);
+}
+
+template <class Body>
+void row_pass(const Cuda& exec, const char* name, Index rows, const Body& body, Largest* largest) {
+  check(cudaMemsetAsync(largest, 0, sizeof(Largest), detail::stream(exec)), name);
+  if (rows <= 0) return;
+  const std::int64_t threads = static_cast<std::int64_t>(rows) * 8;
+  const unsigned blocks = static_cast<unsigned>((threads + detail::block_threads - 1) / detail::block_threads);
+  detail::run_row_pass<<<blocks, detail::block_threads, 0, detail::stream(exec)>>>(body, rows, largest);
   check(cudaGetLastError(), name);
 }
 

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "simulation/coupled_simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "simulation/prescribed_motion.hpp"
+#include "simulation/time_step_limits.hpp"
+
+namespace gdesp {
+namespace {
+
+constexpr double split_cfl = 0.5, verlet_cfl = 0.2;
+
+Domain domain_of(const SimulationInput& input) {
+  return make_domain(input.lower, input.upper, input.fluid_parameters.dp, input.periodic,
+                     input.fluid_parameters.dimensions);
+}
+
+}  // namespace
+
+template <class Exec>
+CoupledSimulation<Exec>::CoupledSimulation(const Exec& exec, const SimulationInput& input)
+    : exec_(exec), input_(input), domain_(domain_of(input)),
+      fluid_(exec, domain_, input.fluid_parameters, input.fluid, input.boundary), body_states_(input.bodies.size()) {
+  input_.fluid = {};
+  input_.boundary = {};
+  input_.grains = {};
+  if (input_.time.cfl <= 0.0) input_.time.cfl = input_.time.scheme == TimeScheme::split ? split_cfl : verlet_cfl;
+  place_bodies(0.0);
+  fluid_.extrapolate_walls();
+  extremes_ = fluid_.extremes();
+}
+
+template <class Exec>
+double CoupledSimulation<Exec>::choose_step(double end) {
+  const sph::FluidParameters& p = input_.fluid_parameters;
+  const double left = end - time_;
+  double dt = input_.time.fixed_step;
+  limited_by_ = "fixed";
+  if (dt <= 0.0) {
+    const double artificial = p.viscosity == sph::Viscosity::artificial
+                                  ? p.artificial_viscosity * p.h * p.sound_speed / (2.0 * (p.dimensions + 2)) : 0.0;
+    const FluidStepLimit limit =
+        fluid_step_limit(input_.time.cfl, p.h, p.sound_speed, std::sqrt(static_cast<double>(extremes_.speed2)),
+                         std::sqrt(static_cast<double>(extremes_.acceleration2)), p.kinematic_viscosity + artificial);
+    dt = limit.dt;
+    limited_by_ = limit.bound;
+  }
+  // End exactly at `end`, without a sliver of a step before it.
+  if (left <= dt * (1.0 + 1e-9)) { limited_by_ = "output"; return left; }
+  if (left < 2.0 * dt) { limited_by_ = "output"; return 0.5 * left; }
+  return dt;
+}
+
+template <class Exec>
+void CoupledSimulation<Exec>::make_room_for(double dt) {
+  double speed = std::sqrt(static_cast<double>(extremes_.speed2)) +
+                 dt * (std::sqrt(static_cast<double>(extremes_.acceleration2)));
+  for (const auto& body : body_states_) speed = std::max(speed, static_cast<double>(norm(body.velocity)));
+  const double move = 1.2 * speed * dt;
+  if (fluid_.lists_are_stale(move)) {
+    fluid_.rebuild(move);
+    ++rebuilds_;
+  }
+  fluid_.note_move(move);
+}
+
+template <class Exec>
+void CoupledSimulation<Exec>::place_bodies(double t) {
+  if (input_.bodies.empty()) return;
+  for (std::size_t b = 0; b < input_.bodies.size(); ++b) {
+    const Body& body = input_.bodies[b];
+    sph::WallBodyState& state = body_states_[b];
+    if (body.kind != BodyKind::prescribed) continue;
+    const MotionNow now = motion_at(body.motion, t);
+    state.centre_start = {};
+    state.centre = now.displacement;
+    state.velocity = static_cast<Vec3f>(now.velocity);
+    state.present = removed_at(body.motion, t) ? 0 : 1;
+  }
+  fluid_.move_walls(body_states_);
+}
+
+template <class Exec>
+void CoupledSimulation<Exec>::split_step(float dt) {
+  place_bodies(time_ + 0.5 * static_cast<double>(dt));
+  fluid_.half_drift(0.5f * dt, density_lag_ + 0.5f * dt);
+  if (input_.fluid_parameters.extrapolated_walls) {
+    fluid_.extrapolate_walls();
+  } else {
+    fluid_.wall_continuity_pass();
+    fluid_.evolve_dynamic_walls(dt);
+  }
+  fluid_.momentum_pass();
+  fluid_.kick_drift(dt, 0.5f * dt);
+  place_bodies(time_ + static_cast<double>(dt));
+  fluid_.continuity_pass();
+  density_lag_ = 0.5f * dt;
+}
+
+template <class Exec>
+void CoupledSimulation<Exec>::verlet_step(float dt) {
+  place_bodies(time_ + static_cast<double>(dt));
+  fluid_.verlet_predict(dt);
+  if (input_.fluid_parameters.extrapolated_walls) {
+    fluid_.extrapolate_walls();
+  } else {
+    fluid_.wall_continuity_pass();
+    fluid_.evolve_dynamic_walls(dt);
+  }
+  fluid_.combined_pass();
+  fluid_.verlet_correct(dt);
+}
+
+template <class Exec>
+void CoupledSimulation<Exec>::step(double end) {
+  const double dt = choose_step(end);
+  make_room_for(dt);
+  if (input_.time.scheme == TimeScheme::split) {
+    split_step(static_cast<float>(dt));
+  } else {
+    verlet_step(static_cast<float>(dt));
+  }
+  extremes_ = fluid_.extremes();
+  if (extremes_.non_finite > 0) {
+    throw Error(ErrorKind::numerical, "water: " + std::to_string(extremes_.non_finite) +
+                                          " particles have no finite state at t = " + std::to_string(time_ + dt) +
+                                          " s, step " + std::to_string(step_ + 1));
+  }
+  time_ = (limited_by_ == std::string("output") && end - time_ <= dt) ? end : time_ + dt;
+  last_dt_ = dt;
+  ++step_;
+}
+
+template <class Exec>
+Diagnostics CoupledSimulation<Exec>::diagnostics() {
+  Diagnostics d;
+  const sph::FluidSums sums = fluid_.sums();
+  d.time = time_;
+  d.step = step_;
+  d.time_step = last_dt_;
+  d.limited_by = limited_by_;
+  d.fluid_mass = sums.mass;
+  d.fluid_kinetic = sums.kinetic_energy;
+  d.fluid_potential = sums.potential_energy;
+  d.fluid_elastic = sums.elastic_energy;
+  d.fluid_momentum = sums.momentum;
+  d.largest_speed = std::sqrt(static_cast<double>(extremes_.speed2));
+  d.mach = d.largest_speed / input_.fluid_parameters.sound_speed;
+  d.largest_density_error = extremes_.density_error;
+  d.fluid_particles = sums.particles;
+  d.wall_particles = fluid_.wall_particles();
+  d.lost_fluid = fluid_.lost();
+  d.rebuilds = rebuilds_;
+  return d;
+}
+
+template <class Exec>
+GrainTable CoupledSimulation<Exec>::grains() { return {}; }
+
+template <class Exec>
+std::vector<BodyPose> CoupledSimulation<Exec>::bodies() {
+  std::vector<BodyPose> poses;
+  for (const auto& state : body_states_) {
+    BodyPose pose;
+    pose.centre = state.centre;
+    pose.velocity = static_cast<Vec3d>(state.velocity);
+    pose.angular_velocity = static_cast<Vec3d>(state.angular_velocity);
+    std::copy(std::begin(state.rotation), std::end(state.rotation), std::begin(pose.rotation));
+    pose.present = state.present != 0;
+    poses.push_back(pose);
+  }
+  return poses;
+}
+
+template class CoupledSimulation<exec::CompiledBackend>;
+
+template <class Exec>
+std::unique_ptr<Simulation> make_simulation_on(const Exec& exec, const SimulationInput& input) {
+  return std::make_unique<CoupledSimulation<Exec>>(exec, input);
+}
+template std::unique_ptr<Simulation> make_simulation_on(const exec::CompiledBackend&, const SimulationInput&);
+
+}  // namespace gdesp

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A running simulation, whatever its back end.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "simulation/simulation_input.hpp"
+
+namespace gdesp {
+
+/// What a simulation says about itself at one time. SI units.
+struct Diagnostics {
+  double time = 0.0;
+  std::int64_t step = 0;
+  double time_step = 0.0;
+  std::string limited_by;             ///< what bound the time step: sound, force, viscosity, fixed, output
+  double fluid_mass = 0.0, fluid_kinetic = 0.0, fluid_potential = 0.0, fluid_elastic = 0.0;
+  Vec3d fluid_momentum;
+  double grain_mass = 0.0, grain_kinetic = 0.0, grain_potential = 0.0, grain_elastic = 0.0;
+  Vec3d grain_momentum;
+  double largest_speed = 0.0;         ///< m/s, water
+  double largest_grain_speed = 0.0;   ///< m/s
+  double mach = 0.0;                  ///< largest speed of water / sound speed
+  double largest_density_error = 0.0; ///< |rho/rho0 - 1|
+  double largest_overlap = 0.0;       ///< overlap / diameter
+  std::int64_t fluid_particles = 0, wall_particles = 0, grains = 0;
+  std::int64_t lost_fluid = 0, lost_grains = 0;
+  std::int64_t rebuilds = 0, grain_substeps = 0;
+};
+
+/// State of a rigid body for output.
+struct BodyPose {
+  Vec3d centre, velocity, angular_velocity;
+  double rotation[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  bool present = true;
+  Vec3d force;                        ///< N, of water and grains on it
+};
+
+class Simulation {
+ public:
+  virtual ~Simulation() = default;
+
+  virtual double time() const = 0;
+  virtual std::int64_t step_count() const = 0;
+  /// One step of the fluid (with all sub-steps of grains), not past `end` (s).
+  virtual void step(double end) = 0;
+  virtual Diagnostics diagnostics() = 0;
+  virtual FluidTable fluid() = 0;
+  virtual BoundaryTable boundary() = 0;
+  virtual GrainTable grains() = 0;
+  virtual std::vector<BodyPose> bodies() = 0;
+
+  void advance_to(double end) {
+    while (time() < end) step(end);
+  }
+};
+
+/// Device: "cpu", "cuda", "cuda:N" or "auto" (a GPU when there is one). Throws Error(resource).
+std::unique_ptr<Simulation> make_simulation(const SimulationInput& input, const std::string& device);
+/// The device "auto" would take: "cpu" or "cuda:0".
+std::string resolve_device(const std::string& device);
+
+}  // namespace gdesp

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Scenes for tests, made without files: a box tank with three layers of wall particles, blocks of water.
+#pragma once
+
+#include <cmath>
+
+#include "simulation/simulation.hpp"
+
+namespace gdesp::test {
+
+/// Water on the lattice dp inside [low, high]; two dimensions: low.y = high.y = 0.
+inline void fill_block(FluidTable& fluid, const Vec3d& low, const Vec3d& high, double dp, bool two_dimensional) {
+  const auto count = [&](double a, double b) { return static_cast<int>(std::lround((b - a) / dp)); };
+  const int nx = count(low.x, high.x), ny = two_dimensional ? 1 : count(low.y, high.y), nz = count(low.z, high.z);
+  for (int i = 0; i < nx; ++i)
+    for (int j = 0; j < ny; ++j)
+      for (int k = 0; k < nz; ++k)
+        fluid.position.push_back({low.x + (i + 0.5) * dp, two_dimensional ? 0.0 : low.y + (j + 0.5) * dp,
+                                  low.z + (k + 0.5) * dp});
+}
+
+/// Wall particles in three layers around the inside [low, high] of a tank that is open at the top.
+inline void wall_tank(BoundaryTable& walls, const Vec3d& low, const Vec3d& high, double dp, bool two_dimensional) {
+  const auto count = [&](double a, double b) { return static_cast<int>(std::lround((b - a) / dp)); };
+  const int nx = count(low.x, high.x), ny = two_dimensional ? 1 : count(low.y, high.y), nz = count(low.z, high.z);
+  const int layers = 3;
+  for (int i = -layers; i < nx + layers; ++i)
+    for (int j = two_dimensional ? 0 : -layers; j < (two_dimensional ? 1 : ny + layers); ++j)
+      for (int k = -layers; k < nz; ++k) {
+        const bool inside = i >= 0 && i < nx && j >= 0 && j < ny && k >= 0;
+        if (inside) continue;
+        walls.position.push_back({low.x + (i + 0.5) * dp, two_dimensional ? 0.0 : low.y + (j + 0.5) * dp,
+                                  low.z + (k + 0.5) * dp});
+      }
+}
+
+/// A tank [0, size] with default parameters for water depth `depth` (sound speed 10 sqrt(2 g depth)).
+inline SimulationInput tank_input(const Vec3d& size, double depth, double dp, int dimensions) {
+  SimulationInput input;
+  input.lower = {-5 * dp, dimensions == 2 ? -dp : -5 * dp, -5 * dp};
+  input.upper = {size.x + 5 * dp, dimensions == 2 ? dp : size.y + 5 * dp, size.z + 20 * dp};
+  auto& p = input.fluid_parameters;
+  p.dp = dp;
+  p.h = 1.3 * dp;
+  p.dimensions = dimensions;
+  p.sound_speed = 10.0 * std::sqrt(2.0 * 9.81 * depth);
+  p.kinematic_viscosity = 1.0e-6;
+  p.skin = 0.15 * p.h;
+  wall_tank(input.boundary, {}, size, dp, dimensions == 2);
+  return input;
+}
+
+}  // namespace gdesp::test
