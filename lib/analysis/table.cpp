@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <fstream>
 #include <limits>
-#include <ostream>
 
 #include "core/error.hpp"
 
@@ -101,46 +100,45 @@ TableFormat parse_table_format(const std::string& name) {
   throw Error(ErrorKind::usage, "--format " + name + ": valid are tsv, csv, json");
 }
 
-TableWriter::TableWriter(std::ostream& out, TableFormat format, std::vector<std::string> column)
-    : out_(out), format_(format), column_(std::move(column)) {
-  if (format_ == TableFormat::json) {
-    out_ << "[";
-  } else {
-    for (std::size_t k = 0; k < column_.size(); ++k) {
-      if (k > 0) out_ << (format_ == TableFormat::tsv ? '\t' : ',');
-      out_ << (format_ == TableFormat::csv ? quoted_csv(column_[k]) : column_[k]);
-    }
-    out_ << '\n';
+TableWriter::TableWriter(Sink sink, TableFormat format, std::vector<std::string> column)
+    : sink_(std::move(sink)), format_(format), column_(std::move(column)) {
+  std::string line = format_ == TableFormat::json ? "[" : "";
+  for (std::size_t k = 0; k < column_.size() && format_ != TableFormat::json; ++k) {
+    if (k > 0) line += format_ == TableFormat::tsv ? '\t' : ',';
+    line += format_ == TableFormat::csv ? quoted_csv(column_[k]) : column_[k];
   }
-  out_.flush();
+  sink_(format_ == TableFormat::json ? line : line + '\n');
 }
 
-TableWriter::~TableWriter() { finish(); }
+TableWriter::~TableWriter() {
+  try {
+    finish();
+  } catch (...) {  // the reader has gone; nothing is left to say
+  }
+}
 
 void TableWriter::row(const std::vector<Cell>& cells) {
-  if (format_ == TableFormat::json) out_ << (first_ ? "\n{" : ",\n{");
+  std::string line = format_ == TableFormat::json ? (first_ ? "\n{" : ",\n{") : "";
   first_ = false;
   for (std::size_t k = 0; k < cells.size(); ++k) {
     const double* number = std::get_if<double>(&cells[k]);
     if (format_ == TableFormat::json) {
-      out_ << (k > 0 ? "," : "") << quoted_json(column_[k]) << ':';
-      if (number) out_ << (std::isfinite(*number) ? format_number(*number) : "null");
-      else out_ << quoted_json(std::get<std::string>(cells[k]));
+      line += (k > 0 ? "," : "") + quoted_json(column_[k]) + ':';
+      line += number ? (std::isfinite(*number) ? format_number(*number) : "null")
+                     : quoted_json(std::get<std::string>(cells[k]));
       continue;
     }
-    if (k > 0) out_ << (format_ == TableFormat::tsv ? '\t' : ',');
-    if (number) out_ << format_number(*number);
-    else out_ << (format_ == TableFormat::csv ? quoted_csv(std::get<std::string>(cells[k])) : std::get<std::string>(cells[k]));
+    if (k > 0) line += format_ == TableFormat::tsv ? '\t' : ',';
+    const std::string text = number ? format_number(*number) : std::get<std::string>(cells[k]);
+    line += format_ == TableFormat::csv ? quoted_csv(text) : text;
   }
-  out_ << (format_ == TableFormat::json ? "}" : "\n");
-  out_.flush();
+  sink_(line + (format_ == TableFormat::json ? "}" : "\n"));
 }
 
 void TableWriter::finish() {
   if (finished_) return;
   finished_ = true;
-  if (format_ == TableFormat::json) out_ << (first_ ? "]\n" : "\n]\n");
-  out_.flush();
+  if (format_ == TableFormat::json) sink_(first_ ? "]\n" : "\n]\n");
 }
 
 Table parse_table(std::istream& in, const std::string& name) {

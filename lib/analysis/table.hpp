@@ -2,6 +2,7 @@
 // Tables as the tool prints them and as references come: named columns with units in brackets ("t[s]").
 #pragma once
 
+#include <functional>
 #include <iosfwd>
 #include <string>
 #include <variant>
@@ -25,19 +26,20 @@ enum class TableFormat { tsv, csv, json };
 /// Throws Error(usage) with what is valid.
 TableFormat parse_table_format(const std::string& name);
 
-/// Prints row by row, flushed after each, so that a reader downstream follows a live run.
+/// Prints row by row, each handed over whole, so that a reader downstream follows a live run.
 /// A missing number (NaN) is "nan" in TSV and CSV, null in JSON.
 class TableWriter {
  public:
-  TableWriter(std::ostream& out, TableFormat format, std::vector<std::string> column);
+  using Sink = std::function<void(const std::string&)>;
+  TableWriter(Sink sink, TableFormat format, std::vector<std::string> column);
   ~TableWriter();
   TableWriter(const TableWriter&) = delete;
   TableWriter& operator=(const TableWriter&) = delete;
   void row(const std::vector<Cell>& cells);
-  void finish();  ///< closes the JSON array; called by the destructor if need be
+  void finish();  ///< closes the JSON array; the destructor does it too, but cannot report a failure
 
  private:
-  std::ostream& out_;
+  Sink sink_;
   TableFormat format_;
   std::vector<std::string> column_;
   bool first_ = true, finished_ = false;

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/plot.hpp"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "analysis/table.hpp"
+#include "core/error.hpp"
+
+extern char** environ;
+
+namespace gdesp::analysis {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Okabe & Ito 2008, "Color Universal Design": blue, vermillion, green, orange, sky, purple, black, grey.
+const char* const palette[] = {"#0072B2", "#D55E00", "#009E73", "#E69F00", "#56B4E9", "#CC79A7", "#000000", "#888888"};
+constexpr int colours = 8;
+const int marks[] = {7, 5, 9, 13, 11, 6, 4, 8};
+const char* const dashes[] = {"1", "'-'", "'.-'", "'-..'", "'.'", "'- .'", "1", "'-'"};
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '\n') out += "\\n";
+    else if (c == '"' || c == '\\') (out += '\\') += c;
+    else out += c;
+  }
+  return out + '"';
+}
+
+std::string extension(const std::string& path) {
+  std::string e = fs::path(path).extension().string();
+  std::transform(e.begin(), e.end(), e.begin(), [](unsigned char c) { return std::tolower(c); });
+  return e;
+}
+
+std::string terminal(const std::string& kind, double width_mm, double height_mm) {
+  std::ostringstream out;
+  const double width_in = width_mm / 25.4, height_in = height_mm / 25.4;
+  if (kind == ".svg") {
+    out << "set terminal svg enhanced background '#ffffff' size " << std::lround(width_in * 96) << ","
+        << std::lround(height_in * 96) << " font 'Helvetica,Arial,DejaVu Sans,sans-serif,13' linewidth 1.1\n";
+  } else if (kind == ".png") {
+    out << "set terminal pngcairo enhanced size " << std::lround(width_in * 200) << "," << std::lround(height_in * 200)
+        << " font 'DejaVu Sans,9' fontscale 2.1 linewidth 2.2 pointscale 1.6\n";
+  } else {
+    out << "set terminal pdfcairo enhanced size " << width_in << "in," << height_in
+        << "in font 'DejaVu Sans,9' linewidth 1.2\n";
+  }
+  return out.str();
+}
+
+void write_common(std::ostream& out) {
+  out << "set encoding utf8\nset datafile missing 'nan'\n"
+         "set border 3 lw 0.8 lc '#333333'\nset tics nomirror out scale 0.6 textcolor '#222222'\n"
+         "set grid lw 0.5 lc '#d0d0d0' dt 1\nset key opaque spacing 1.15 samplen 2.2 Left reverse\nset autoscale xfix\n"
+         "set style fill transparent solid 0.25 noborder\n"
+         "set palette defined (0 '#440154', 0.25 '#3b528b', 0.5 '#21918c', 0.75 '#5ec962', 1 '#fde725')\n";
+}
+
+void write_block(std::ostream& out, const std::string& name, const Series& s) {
+  out << "$" << name << " << EOD\n";
+  for (std::size_t k = 0; k < s.x.size(); ++k) {
+    if (!std::isfinite(s.x[k]) || !std::isfinite(s.y[k])) {
+      out << "\n";  // a gap
+      continue;
+    }
+    out << format_number(s.x[k]) << ' ' << format_number(s.y[k]);
+    if (k < s.low.size()) out << ' ' << format_number(s.low[k]) << ' ' << format_number(s.high[k]);
+    if (k < s.name.size()) out << (s.low.empty() ? " 0 0 " : " ") << quoted(s.name[k]);
+    out << '\n';
+  }
+  out << "EOD\n";
+}
+
+std::string curve(const std::string& block, const Series& s, int number) {
+  const int c = (s.colour >= 0 ? s.colour : number) % colours;
+  std::ostringstream out;
+  const std::string title = s.label.empty() ? " notitle" : " title " + quoted(s.label);
+  const std::string colour = std::string(" lc rgb '") + palette[c] + "'";
+  const std::string point = colour + " pt " + std::to_string(marks[c]) + " ps 0.7";
+  switch (s.style) {
+    case MarkStyle::line: out << "$" << block << " with lines lw 2" << colour << " dt " << dashes[c]; break;
+    case MarkStyle::dashes: out << "$" << block << " with lines lw 1.2 dt '-'" << colour; break;
+    case MarkStyle::points:
+      if (s.low.empty()) out << "$" << block << " with points" << point;
+      else out << "$" << block << " using 1:2:3:4 with yerrorbars" << point;
+      break;
+    case MarkStyle::line_points: out << "$" << block << " with linespoints lw 1.5" << point << " dt " << dashes[c]; break;
+    case MarkStyle::band: out << "$" << block << " using 1:3:4 with filledcurves" << colour; break;
+    case MarkStyle::impulses: out << "$" << block << " with impulses lw 2" << colour; break;
+  }
+  out << title;
+  if (!s.name.empty()) {
+    out << ", $" << block << " using 1:2:5 with labels offset character 0.8,0.6 left font ',8' tc rgb '#333333' notitle";
+  }
+  return out.str();
+}
+
+struct Range { double low = INFINITY, high = -INFINITY; };
+
+Range range_of(const Panel& p, bool vertical) {
+  Range r;
+  const auto take = [&](double v) { if (std::isfinite(v)) r.low = std::min(r.low, v), r.high = std::max(r.high, v); };
+  for (const Series& s : p.series) {
+    for (const double v : vertical ? s.y : s.x) take(v);
+    if (vertical) for (const double v : s.low) take(v);
+    if (vertical) for (const double v : s.high) take(v);
+  }
+  return r;
+}
+
+// A constant or empty series would leave gnuplot without a range.
+void write_range(std::ostream& out, const char* axis, const Range& r, bool log, bool reverse) {
+  if (r.low > r.high) {
+    out << "set " << axis << "range [0:1]\n";
+  } else if (r.high - r.low < 1e-12 * std::max(1.0, std::abs(r.high))) {
+    const double pad = log ? 0.0 : std::max(0.5 * std::abs(r.high), 0.5e-3);
+    if (log) out << "set " << axis << "range [" << 0.5 * r.low << ":" << 2.0 * r.high << "]\n";
+    else out << "set " << axis << "range [" << r.low - pad << ":" << r.high + pad << "]\n";
+  } else {
+    out << "set " << axis << "range [*:*] " << (reverse ? "reverse" : "noreverse") << "\n";
+  }
+}
+
+void write_panel(std::ostream& out, const Panel& p, int index) {
+  const std::string small_print = p.note.empty() ? "" : "\n{/*0.75 " + p.note + "}";
+  out << "set title " << quoted(p.title + small_print) << " font ',11' offset 0,-0.3\nset xlabel " << quoted(p.x_label)
+      << "\nset ylabel " << quoted(p.y_label) << "\n"
+      << (p.log_x ? "set logscale x\n" : "unset logscale x\n") << (p.log_y ? "set logscale y\n" : "unset logscale y\n")
+      << (p.equal_axes ? "set size ratio -1\n" : "set size noratio\n");
+  out << "set format x '" << (p.log_x ? "10^{%T}" : "%g") << "'\nset format y '" << (p.log_y ? "10^{%T}" : "%g") << "'\n";
+  write_range(out, "x", range_of(p, false), p.log_x, false);
+  if (std::isfinite(p.y_low) && std::isfinite(p.y_high)) out << "set yrange [" << p.y_low << ":" << p.y_high << "]\n";
+  else write_range(out, "y", range_of(p, true), p.log_y, p.reverse_y);
+  std::size_t named = 0;
+  for (const Series& s : p.series) named += !s.label.empty();
+  if (named == 0) out << "unset key\n";
+  else if (named > 4) out << "set key outside right top\n";
+  else out << "set key inside top right\n";
+  std::string command;
+  for (std::size_t k = 0; k < p.series.size(); ++k) {
+    const std::string block = "p" + std::to_string(index) + "s" + std::to_string(k);
+    bool any = false;
+    for (std::size_t i = 0; i < p.series[k].x.size(); ++i) {
+      any = any || (std::isfinite(p.series[k].x[i]) && std::isfinite(p.series[k].y[i]));
+    }
+    if (!any) continue;
+    write_block(out, block, p.series[k]);
+    command += (command.empty() ? "plot " : ", \\\n  ") + curve(block, p.series[k], static_cast<int>(k));
+  }
+  out << (command.empty() ? "plot NaN notitle" : command) << "\n";
+}
+
+void write_map(std::ostream& out, const ColourMap& m, int index) {
+  out << "$m" << index << " << EOD\n";
+  for (int iy = 0; iy < m.ny; ++iy) {
+    for (int ix = 0; ix < m.nx; ++ix) {
+      out << format_number(m.x0 + ix * m.dx) << ' ' << format_number(m.y0 + iy * m.dx) << ' '
+          << format_number(m.value[static_cast<std::size_t>(iy) * m.nx + ix]) << '\n';
+    }
+    out << '\n';
+  }
+  out << "EOD\nset title " << quoted(m.title) << "\nset xlabel " << quoted(m.x_label) << "\nset ylabel "
+      << quoted(m.y_label) << "\nset cblabel " << quoted(m.value_label)
+      << "\nunset logscale\nset size ratio -1\nset format x '%.0f'\nset format y '%.0f'\nset xtics autofreq\nset xtics rotate by -30\n";
+  out << "set xrange [" << m.x0 - 0.5 * m.dx << ":" << m.x0 + (m.nx - 0.5) * m.dx << "]\nset yrange ["
+      << m.y0 - 0.5 * m.dx << ":" << m.y0 + (m.ny - 0.5) * m.dx << "]\nunset key\n";
+  for (std::size_t k = 0; k < m.overlay.size(); ++k) {
+    write_block(out, "m" + std::to_string(index) + "s" + std::to_string(k), m.overlay[k]);
+  }
+  out << "plot $m" << index << " using 1:2:3 with image notitle";
+  for (std::size_t k = 0; k < m.overlay.size(); ++k) {
+    out << ", \\\n  " << curve("m" + std::to_string(index) + "s" + std::to_string(k), m.overlay[k], static_cast<int>(k) + 6);
+  }
+  out << "\n";
+}
+
+std::string script(const Figure& f, const std::string& kind, const std::string& output) {
+  std::ostringstream out;
+  out.precision(10);
+  const std::size_t rows = f.panel.size() + f.map.size();
+  const double height = f.panel_height_mm * (static_cast<double>(f.panel.size()) + 1.4 * static_cast<double>(f.map.size())) +
+                        (f.title.empty() ? 0.0 : 9.0);
+  out << terminal(kind, f.width_mm, height) << "set output " << quoted(output) << "\n";
+  write_common(out);
+  if (rows > 1 || !f.title.empty()) {
+    out << "set multiplot layout " << rows << ",1" << (f.title.empty() ? "" : " title " + quoted(f.title) + " font ',12'")
+        << "\n";
+  }
+  for (std::size_t k = 0; k < f.panel.size(); ++k) write_panel(out, f.panel[k], static_cast<int>(k));
+  for (std::size_t k = 0; k < f.map.size(); ++k) write_map(out, f.map[k], static_cast<int>(k));
+  if (rows > 1 || !f.title.empty()) out << "unset multiplot\n";
+  out << "unset output\n";
+  return out.str();
+}
+
+std::string read_all(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+// The script goes through a pipe; what gnuplot says goes to `log`.
+void run_gnuplot(const std::string& commands, const std::string& log) {
+  int ends[2];
+  if (::pipe2(ends, O_CLOEXEC) != 0) throw Error(ErrorKind::resource, "no pipe for gnuplot");
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, ends[0], 0);
+  posix_spawn_file_actions_addopen(&actions, 1, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  posix_spawn_file_actions_adddup2(&actions, 1, 2);
+  char name[] = "gnuplot", dash[] = "-";
+  char* arguments[] = {name, dash, nullptr};
+  pid_t pid = 0;
+  const int problem = ::posix_spawnp(&pid, name, &actions, nullptr, arguments, environ);
+  posix_spawn_file_actions_destroy(&actions);
+  ::close(ends[0]);
+  if (problem != 0) {
+    ::close(ends[1]);
+    throw Error(ErrorKind::resource, "--plot needs gnuplot (package gnuplot-nox), which cannot be started");
+  }
+  const auto before = std::signal(SIGPIPE, SIG_IGN);
+  for (std::size_t done = 0; done < commands.size();) {
+    const ssize_t n = ::write(ends[1], commands.data() + done, commands.size() - done);
+    if (n <= 0) break;
+    done += static_cast<std::size_t>(n);
+  }
+  ::close(ends[1]);
+  std::signal(SIGPIPE, before);
+  int status = 0;
+  while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+    throw Error(ErrorKind::resource, "gnuplot failed: " + read_all(log).substr(0, 500));
+  }
+}
+
+}  // namespace
+
+void check_plot_path(const std::string& path) {
+  const std::string e = extension(path);
+  if (e != ".svg" && e != ".png" && e != ".pdf") {
+    throw Error(ErrorKind::usage, "--plot " + path + ": the name must end in .svg, .png or .pdf");
+  }
+  const fs::path folder = fs::path(path).parent_path();
+  if (!folder.empty() && !fs::is_directory(folder)) {
+    throw Error(ErrorKind::input, "--plot " + path + ": the folder " + folder.string() + " does not exist");
+  }
+}
+
+void write_figure(const Figure& figure, const std::string& path) {
+  check_plot_path(path);
+  const std::string kind = extension(path);
+  const std::string aside = path + ".part-" + std::to_string(::getpid()) + kind, log = aside + ".log";
+  try {
+    run_gnuplot(script(figure, kind, aside), log);
+    fs::rename(aside, path);
+    fs::remove(log);
+  } catch (...) {
+    std::error_code ignored;
+    fs::remove(aside, ignored);
+    fs::remove(log, ignored);
+    throw;
+  }
+}
+
+std::string figure_as_svg(const Figure& figure) {
+  const fs::path folder = fs::temp_directory_path() / ("gdesp-figure-" + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  const std::string path = (folder / "figure.svg").string();
+  try {
+    write_figure(figure, path);
+    const std::string svg = read_all(path);
+    fs::remove_all(folder);
+    return svg.substr(svg.find("<svg"));
+  } catch (...) {
+    std::error_code ignored;
+    fs::remove_all(folder, ignored);
+    throw;
+  }
+}
+
+}  // namespace gdesp::analysis
