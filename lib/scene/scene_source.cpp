@@ -82,46 +82,6 @@ bool is_table_array(const std::string& key) {
   return std::find(arrays.begin(), arrays.end(), key) != arrays.end();
 }
 
-/// One step down: into a table, or into an element of an array of tables (`part` moves past an index).
-toml::table* step_down(toml::table& table, const std::vector<std::string>& parts, std::size_t& i, std::string& path,
-                       const std::string& origin) {
-  path += (path.empty() ? "" : ".") + parts[i];
-  toml::node* node = table.get(parts[i]);
-  const bool array_expected = is_table_array(path);
-  const bool indexed = array_expected && i + 1 < parts.size() && is_index(parts[i + 1]);
-  const std::size_t index = indexed ? std::stoul(parts[i + 1]) : 0;
-  if (indexed) ++i;
-  if (!node && array_expected) throw Error(ErrorKind::input, origin + ": the scene has no [[" + path + "]]");
-  if (!node) node = &table.insert_or_assign(parts[i], toml::table{}).first->second;
-  const std::size_t count = node->is_array() ? node->as_array()->size() : 1;
-  if (index >= count)
-    throw Error(ErrorKind::input, origin + ": the scene has " + std::to_string(count) + " [[" + path +
-                                      "]], numbered from 0");
-  if (toml::array* array = node->as_array()) node = array->get(index);
-  if (!node->is_table()) throw Error(ErrorKind::input, origin + ": " + path + " is a value, not a table");
-  return node->as_table();
-}
-
-void apply_override(toml::table& root, const Override& override) {
-  const std::string origin = "--set " + override.key + "=" + override.value;
-  const std::vector<std::string> parts = split(override.key);
-  for (const std::string& part : parts)
-    if (part.empty()) throw Error(ErrorKind::usage, origin + ": expected KEY=VALUE, such as resolution.dp=5");
-  toml::table value = override_value(override);
-  toml::table* table = &root;
-  std::string path;
-  std::size_t i = 0;
-  for (; i + 1 < parts.size(); ++i) {
-    table = step_down(*table, parts, i, path, origin);
-    if (i + 1 >= parts.size()) throw Error(ErrorKind::usage, origin + ": names a table, not one of its keys");
-  }
-  if (path == "terrain" && (parts.back() == "file" || parts.back() == "files")) {
-    table->erase("file");
-    table->erase("files");
-  }
-  table->insert_or_assign(parts.back(), std::move(*value.get("value")));
-}
-
 /// Known keys, and the tables on the way to them.
 struct KnownKeys {
   std::set<std::string> leaves{"terrain.file"}, tables;
@@ -152,6 +112,60 @@ struct KnownKeys {
     return "; valid here: " + join(children(prefix));
   }
 };
+
+/// Refuses an override of a key that no scene has, and says which was meant.
+void refuse_unknown_override(const std::vector<std::string>& parts, const std::string& origin, const KnownKeys& known) {
+  std::string prefix;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const std::string full = prefix + parts[i];
+    if (known.leaves.count(full)) return;  // what follows is inside a value such as box.upper
+    if (!known.tables.count(full))
+      throw Error(ErrorKind::input, origin + ": unknown key \"" + full + "\"" + known.suggestion(prefix, parts[i]));
+    if (is_table_array(full) && i + 1 < parts.size() && is_index(parts[i + 1])) ++i;
+    prefix = full + ".";
+  }
+}
+
+/// One step down: into a table, or into an element of an array of tables (`part` moves past an index).
+toml::table* step_down(toml::table& table, const std::vector<std::string>& parts, std::size_t& i, std::string& path,
+                       const std::string& origin) {
+  path += (path.empty() ? "" : ".") + parts[i];
+  toml::node* node = table.get(parts[i]);
+  const bool array_expected = is_table_array(path);
+  const bool indexed = array_expected && i + 1 < parts.size() && is_index(parts[i + 1]);
+  const std::size_t index = indexed ? std::stoul(parts[i + 1]) : 0;
+  if (indexed) ++i;
+  if (!node && array_expected) throw Error(ErrorKind::input, origin + ": the scene has no [[" + path + "]]");
+  if (!node) node = &table.insert_or_assign(parts[i], toml::table{}).first->second;
+  const std::size_t count = node->is_array() ? node->as_array()->size() : 1;
+  if (index >= count)
+    throw Error(ErrorKind::input, origin + ": the scene has " + std::to_string(count) + " [[" + path +
+                                      "]], numbered from 0");
+  if (toml::array* array = node->as_array()) node = array->get(index);
+  if (!node->is_table()) throw Error(ErrorKind::input, origin + ": " + path + " is a value, not a table");
+  return node->as_table();
+}
+
+void apply_override(toml::table& root, const Override& override, const KnownKeys& known) {
+  const std::string origin = "--set " + override.key + "=" + override.value;
+  const std::vector<std::string> parts = split(override.key);
+  for (const std::string& part : parts)
+    if (part.empty()) throw Error(ErrorKind::usage, origin + ": expected KEY=VALUE, such as resolution.dp=5");
+  refuse_unknown_override(parts, origin, known);
+  toml::table value = override_value(override);
+  toml::table* table = &root;
+  std::string path;
+  std::size_t i = 0;
+  for (; i + 1 < parts.size(); ++i) {
+    table = step_down(*table, parts, i, path, origin);
+    if (i + 1 >= parts.size()) throw Error(ErrorKind::usage, origin + ": names a table, not one of its keys");
+  }
+  if (path == "terrain" && (parts.back() == "file" || parts.back() == "files")) {
+    table->erase("file");
+    table->erase("files");
+  }
+  table->insert_or_assign(parts.back(), std::move(*value.get("value")));
+}
 
 void refuse_unknown(const toml::table& table, const std::string& prefix, const KnownKeys& known,
                     const std::vector<std::string>& foreign) {
@@ -198,7 +212,7 @@ Scene read_scene(const std::string& path, const std::vector<Override>& overrides
   if (options.replace_preset)
     for (const Override& override : overrides)
       if (override.key == "numerics.preset") forget_old_preset(root);
-  for (const Override& override : overrides) apply_override(root, override);
+  for (const Override& override : overrides) apply_override(root, override, known);
   refuse_unknown(root, "", known, options.foreign_tables);
   Scene scene;
   const scene_detail::KeySources sources =
