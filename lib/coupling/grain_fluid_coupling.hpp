@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Grains and water: porosity, what the water does to the grains, and its exact reaction.
+// @eq coupling.porosity
+//   eps_a = 1 - sum_i V_i W_ai(h_c), not below porosity_floor; at a grain eps_i = sum_a eps_a V_a W_ia / S_i,
+//   u_i = sum_a v_a V_a W_ia / S_i, S_i = sum_a V_a W_ia. V_a: volume of mixture of fluid particle a (mass over
+//   superficial density) [m3]; V_i: volume of the grain [m3]; h_c: coupling length, at least two grain diameters [m].
+//   Source: eqs 12, 13, 18 of the paper as meant (physics errata); Robinson, Ramaioli, Luding (2014), eqs 10-14,
+//   doi:10.1016/j.ijmultiphaseflow.2013.11.003.
+// @eq coupling.buoyancy
+//   f_i = V_i (sum_a m_a a_a W_ia)/S_i, a_a: acceleration of fluid particle a by pressure and viscosity [m/s2]: the
+//   Shepard-corrected (-grad P + div tau) at the grain, right up to free surfaces and walls. Robinson et al. (2014), eq 17.
+//   Faded in over 0.35 < S_i < 0.65: a grain out of the water feels none.
+// @eq coupling.reaction
+//   f_a = -V_a sum_i F_i W_ai / S_i, so that sum_a f_a = -sum_i F_i. F_i: all fluid forces on grain i, averaged over
+//   the step [N]. Eqs 17-18 of the paper.
+// @eq coupling.added-mass
+//   f_i = C_m rho V_i (Du/Dt - dv/dt), C_m = 1/2 for a sphere. Source: Maxey and Riley (1983), doi:10.1063/1.864230.
+#pragma once
+
+#include "neighbors/cluster_list.hpp"
+#include "sph/fluid_system.hpp"
+
+namespace gdesp::coupling {
+
+enum class Drag { ergun_wen_yu, di_felice };
+
+struct CouplingLaw {
+  Drag drag = Drag::di_felice;
+  double smoothing_length = 0.0;       ///< m, h_c
+  double added_mass = 0.5;             ///< C_m
+  double fluid_density = 1000.0;       ///< kg/m3
+  double dynamic_viscosity = 1.0e-3;   ///< Pa s
+  Vec3d gravity;
+  double dp = 0.0;
+  int dimensions = 3;
+  std::vector<float> real_diameter;    ///< m per grain group; 0: its own
+};
+
+/// Lowest porosity the laws are given (random loose packings lie near 0.4; closer is outside Ergun's data).
+inline constexpr float porosity_floor = 0.3f;
+
+/// Grains by slot, as the coupling reads them.
+struct CoupledGrains {
+  CellGridView grid;                 ///< of their ClusterSet
+  Index slots = 0;
+  const FixedPosition* position = nullptr;
+  const Vec3f* velocity = nullptr;   ///< m/s
+  const float* radius = nullptr;     ///< m
+  const float* mass = nullptr;       ///< kg
+  const std::uint32_t* id = nullptr;
+  const std::int32_t* group = nullptr;
+};
+
+template <class Exec>
+class GrainFluidCoupling {
+ public:
+  GrainFluidCoupling(const Exec& exec, const Domain& domain, const CouplingLaw& law);
+
+  /// Builds both lists for the current order of both sets; valid while water and grains move less than skin/2 (m).
+  void rebuild(const CoupledGrains& grains, const sph::FluidSystem<Exec>& fluid, double skin);
+  /// False when no grain is in reach of water: nothing else needs to be called.
+  bool in_contact() const { return grain_fluid_.entries() > 0; }
+
+  /// Packs the grains' records at their place now.
+  void place(const CoupledGrains& grains);
+  /// Porosity at the fluid particles.
+  void update_porosity(sph::FluidSystem<Exec>& fluid);
+  /// Forces on grains from the fluid's records and its accelerations: fills the four arrays below for a step dt (s).
+  void gather_forces(const CoupledGrains& grains, sph::FluidSystem<Exec>& fluid, float dt);
+  /// The reaction, from what the grains took over the step: external acceleration of the fluid. drag_impulse by slot,
+  /// N s; velocity_change by slot, m/s (for the added mass).
+  void react(const CoupledGrains& grains, sph::FluidSystem<Exec>& fluid, const Vec3d* drag_impulse,
+             const Vec3f* velocity_change, float dt);
+
+  // By grain slot.
+  const float* drag_coefficient() const { return drag_coefficient_.data(); }   ///< kg/s
+  const Vec3f* fluid_velocity() const { return fluid_velocity_.data(); }       ///< m/s
+  const Vec3f* other_force() const { return other_force_.data(); }             ///< N
+  const float* added_mass() const { return added_mass_.data(); }               ///< kg
+  const float* porosity() const { return porosity_.data(); }
+  double smoothing_length() const { return law_.smoothing_length; }
+
+ private:
+  Exec exec_;
+  Domain domain_;
+  CouplingLaw law_;
+  ClusterList<Exec> grain_fluid_, fluid_grain_;
+  Array<float, Exec> real_diameter_;
+  Array<float, Exec> record_;        ///< x y z V | Fx/S Fy/S Fz/S spare
+  Array<float, Exec> sums_;          ///< 8 rows of 4 per cluster, as gathered
+  Array<float, Exec> weight_;        ///< S_i
+  Array<float, Exec> drag_coefficient_, added_mass_, porosity_;
+  Array<Vec3f, Exec> fluid_velocity_, other_force_;
+  Array<float, Exec> reaction_;      ///< 3 rows of 4 per fluid cluster
+};
+
+}  // namespace gdesp::coupling
