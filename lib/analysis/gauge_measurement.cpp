@@ -56,7 +56,9 @@ void GaugeMeasurement::add(FrameView& view, const RowSink& emit) {
     if (!fluid.position.empty()) {
       if (const auto z = view.water().surface_level(g.at.x, g.at.y)) level = *z + info_.offset.z;
       if (g.has_z && fluid.pressure.size() == fluid.position.size()) {
-        pressure = view.all_water().sample(g.at, fluid.pressure, -gamma).value_or(0.0);  // no water there: none pressed
+        // No water there: none pressed. Above the surface of standing water the carried value would turn negative.
+        pressure = view.all_water().sample(g.at, fluid.pressure, -gamma).value_or(0.0);
+        if (pressure < 0.0) pressure = std::min(0.0, *view.all_water().sample(g.at, fluid.pressure));
       }
     }
     level_[k].push_back(level);

@@ -17,6 +17,7 @@ int run_runup(const std::vector<std::string>& arguments);
 int run_front(const std::vector<std::string>& arguments);
 int run_profile(const std::vector<std::string>& arguments);
 int run_gauge(const std::vector<std::string>& arguments);
+int run_render(const std::vector<std::string>& arguments);
 
 /// All commands, in the order of the help.
 const std::vector<Command>& commands();

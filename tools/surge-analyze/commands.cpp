@@ -9,6 +9,7 @@ const std::vector<Command>& commands() {
       {"front", "leading edge of water and solids against time, also as x*, t*", run_front},
       {"profile", "surface of water and slide along a line at given times", run_profile},
       {"gauge", "water level and pressure at points against time; arrival times", run_gauge},
+      {"render", "one picture in three dimensions: terrain, water by speed, slide", run_render},
   };
   return all;
 }
