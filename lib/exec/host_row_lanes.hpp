@@ -71,7 +71,8 @@ struct HostRowLanes {
   /// The bits of a float as an integer, and an integer's value as a float.
   static Int bits(const Real& a) { return Int8::Vector(a.v); }
   static Real value(const Int& a) { return __builtin_convertvector(a.v, Float8::Vector); }
-  static Int select_int(const Mask& c, const Int& a, const Int& b) { return c ? a.v : b.v; }
+  static Int truncate(const Real& a) { return __builtin_convertvector(a.v, Int8::Vector); }
+  static Int scaled(const Int& a, std::int32_t by) { return a.v * by; }
 
   /// Four floats from each of eight records: out[k] = p[stride * index + k].
   static void gather4(const float* p, int stride, const Int& index, Real out[4]) {

@@ -54,7 +54,8 @@ struct DeviceRowLanes {
   __device__ void store(std::int32_t* p, Int a) const { p[lane] = a; }
   __device__ Int bits(Real a) const { return __float_as_int(a); }
   __device__ Real value(Int a) const { return static_cast<float>(a); }
-  __device__ Int select_int(bool c, Int a, Int b) const { return c ? a : b; }
+  __device__ Int truncate(Real a) const { return static_cast<Int>(a); }
+  __device__ Int scaled(Int a, std::int32_t by) const { return a * by; }
   __device__ void gather4(const float* p, int stride, Int index, Real out[4]) const {
     const float4 q = *reinterpret_cast<const float4*>(p + static_cast<std::int64_t>(index) * stride);
     out[0] = q.x;

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem/grain_step.hpp"
+
+#include "dem/grain_motion.hpp"
+
+namespace gdesp::dem {
+namespace {
+
+template <class Law, bool Rolling>
+struct GrainStep {
+  ContactLaws<Law> laws;
+  GrainStepView v;
+
+  template <class R>
+  struct Sums {
+    Vec3<R> force{}, torque{};   // N; N m / radius
+    R overlap{0.0f};             // overlap / diameter
+  };
+
+  // Eight contacts. q: gathered quarters of the neighbours' records.
+  template <class Lanes>
+  GDESP_HD void add_row(const GrainRecord& own, Index index, const Lanes& lanes,
+                        Sums<typename Lanes::Real>& sums) const {
+    using R = typename Lanes::Real;
+    using I = typename Lanes::Int;
+    using real::max;
+    using real::select;
+    using real::sqrt;
+    ContactRow& row = v.contacts.rows[index];
+    const I j = lanes.load(row.neighbour);
+    const float* records = reinterpret_cast<const float*>(v.now);
+    R q[4];
+    lanes.gather4(records, record_floats, j, q);
+    const Vec3<R> r{lanes.value(I(own.x) - lanes.bits(q[0])) * R(v.unit.metres.x),
+                    lanes.value(I(own.y) - lanes.bits(q[1])) * R(v.unit.metres.y),
+                    lanes.value(I(own.z) - lanes.bits(q[2])) * R(v.unit.metres.z)};
+    const R distance = sqrt(max(dot(r, r), R(1.0e-30f)));
+    const R reach = R(own.radius) + q[3];
+    const R overlap = reach - distance;
+    const auto touching = overlap > R(0.0f);
+    const R zero(0.0f);
+    if (!lanes.any(touching)) {
+      clear_history(row, index, lanes);
+      return;
+    }
+    ContactGeometry<R> g;
+    const R inverse = R(1.0f) / distance;
+    g.n = {r.x * inverse, r.y * inverse, r.z * inverse};
+    g.overlap = max(overlap, R(1.0e-30f));
+    g.radius = (R(own.radius) * q[3]) / reach;
+    R velocity[4];
+    lanes.gather4(records + 4, record_floats, j, velocity);
+    g.mass = harmonic_half(R(own.mass), velocity[3]);
+    const R mass_j = velocity[3], radius_j = q[3];
+    R spin[4];
+    lanes.gather4(records + 8, record_floats, j, spin);
+    // Arms share the distance as the radii do: together they are |r_ij|, so angular momentum is kept exactly.
+    const R share = distance / reach;
+    const Vec3<R> surface{(R(own.sx) + spin[0]) * share, (R(own.sy) + spin[1]) * share, (R(own.sz) + spin[2]) * share};
+    const Vec3<R> turning = cross(surface, g.n);
+    g.velocity = {(R(own.vx) - velocity[0]) - turning.x, (R(own.vy) - velocity[1]) - turning.y,
+                  (R(own.vz) - velocity[2]) - turning.z};
+    Vec3<R> history{lanes.load(row.fx), lanes.load(row.fy), lanes.load(row.fz)};
+    const ContactForce<R> c = contact_force(laws, g, v.half, history);
+    lanes.store(row.fx, select(touching, history.x, zero));
+    lanes.store(row.fy, select(touching, history.y, zero));
+    lanes.store(row.fz, select(touching, history.z, zero));
+    const Vec3<R> force{select(touching, c.force.x, zero), select(touching, c.force.y, zero),
+                        select(touching, c.force.z, zero)};
+    const Vec3<R> torque = cross(force, g.n);
+    sums.force = {sums.force.x + force.x, sums.force.y + force.y, sums.force.z + force.z};
+    sums.torque = {sums.torque.x + select(touching, torque.x * share, zero),
+                   sums.torque.y + select(touching, torque.y * share, zero),
+                   sums.torque.z + select(touching, torque.z * share, zero)};
+    sums.overlap = max(sums.overlap, select(touching, overlap / (R(4.0f) * g.radius), zero));
+    if constexpr (Rolling) {
+      add_rolling(own, index, lanes, g, c, touching, radius_j, mass_j, spin, sums);
+    }
+  }
+
+  template <class Lanes, class R, class Mask>
+  GDESP_HD void add_rolling(const GrainRecord& own, Index index, const Lanes& lanes, const ContactGeometry<R>& g,
+                            const ContactForce<R>& c, const Mask& touching, const R& radius_j, const R& mass_j,
+                            const R* spin_j, Sums<R>& sums) const {
+    using real::select;
+    const R zero(0.0f);
+    RollingRow& row = v.contacts.rolling[index];
+    Vec3<R> history{lanes.load(row.mx), lanes.load(row.my), lanes.load(row.mz)};
+    RollingMotion<R> motion;
+    motion.n = g.n;
+    // Quotients, not products: a fused multiply-add would round the two copies of the contact differently.
+    const R radius_i(own.radius);
+    motion.w = {R(own.sx) / radius_i - spin_j[0] / radius_j, R(own.sy) / radius_i - spin_j[1] / radius_j,
+                R(own.sz) / radius_i - spin_j[2] / radius_j};
+    motion.radius = g.radius;
+    const R about_contact(1.0f + v.inertia_factor);
+    const R inertia_i = about_contact * R(own.mass) * R(own.radius) * R(own.radius);
+    const R inertia_j = about_contact * mass_j * radius_j * radius_j;
+    motion.inertia = harmonic_half(inertia_i, inertia_j);
+    motion.normal_force = c.normal_force;
+    motion.half_before = R(v.half.before);
+    motion.half_after = R(v.half.after);
+    const Vec3<R> t = rolling_torque(laws.rolling_friction, c.normal_stiffness, motion, history);
+    lanes.store(row.mx, select(touching, history.x, zero));
+    lanes.store(row.my, select(touching, history.y, zero));
+    lanes.store(row.mz, select(touching, history.z, zero));
+    sums.torque = {sums.torque.x + select(touching, t.x / radius_i, zero),
+                   sums.torque.y + select(touching, t.y / radius_i, zero),
+                   sums.torque.z + select(touching, t.z / radius_i, zero)};
+  }
+
+  template <class Lanes>
+  GDESP_HD void clear_history(ContactRow& row, Index index, const Lanes& lanes) const {
+    using R = typename Lanes::Real;
+    const R zero(0.0f);
+    lanes.store(row.fx, zero);
+    lanes.store(row.fy, zero);
+    lanes.store(row.fz, zero);
+    if constexpr (Rolling) {
+      RollingRow& roll = v.contacts.rolling[index];
+      lanes.store(roll.mx, zero);
+      lanes.store(roll.my, zero);
+      lanes.store(roll.mz, zero);
+    }
+  }
+
+  // v(n+1/2) from all forces.
+  GDESP_HD Vec3f kicked_velocity(Index i, const GrainRecord& own, Vec3f force, float kick) const {
+    const Vec3f old = v.velocity[i];
+    force += own.mass * v.gravity;
+    float mass = own.mass, drag = 0.0f;
+    Vec3f u{};
+    if (v.fluid.drag_coefficient) {
+      force += v.fluid.other_force[i];
+      mass += v.fluid.added_mass[i];
+      drag = v.fluid.drag_coefficient[i];
+      u = v.fluid.fluid_velocity[i];
+    }
+    const float share = kick / mass;
+    return {dragged_velocity(old.x, share, force.x, drag, u.x), dragged_velocity(old.y, share, force.y, drag, u.y),
+            dragged_velocity(old.z, share, force.z, drag, u.z)};
+  }
+  GDESP_HD void note_drag(Index i, const Vec3f& velocity, float kick) const {
+    if (!v.fluid.drag_coefficient) return;
+    const double b = static_cast<double>(kick) * v.fluid.drag_coefficient[i];
+    const Vec3f& u = v.fluid.fluid_velocity[i];
+    Vec3d& sum = v.fluid.drag_impulse[i];
+    sum.x += b * (static_cast<double>(u.x) - velocity.x);
+    sum.y += b * (static_cast<double>(u.y) - velocity.y);
+    sum.z += b * (static_cast<double>(u.z) - velocity.z);
+  }
+  // Moves one coordinate by a length in units; the part of a unit that is left is owed.
+  GDESP_HD static void move(std::int32_t& place, float& rest, float units) {
+    const float wanted = units + rest;
+    const float whole = ::rintf(wanted);
+    rest = wanted - whole;
+    place = fraction_sum(place, static_cast<std::int32_t>(whole));
+  }
+
+  GDESP_HD exec::Largest finish(Index i, const GrainRecord& own, const Vec3f& force, const Vec3f& torque, float overlap,
+                                bool writes) const {
+    const float kick = v.half.before + v.half.after, drift = 2.0f * v.half.after;
+    const Vec3f velocity_old = v.velocity[i], spin_old = v.spin[i];
+    const Vec3f velocity = kicked_velocity(i, own, force, kick);
+    const float turn = kick / (v.inertia_factor * own.mass * own.radius * own.radius);
+    const Vec3f spin = spin_old + turn * torque;
+    GrainRecord next = own;
+    move(next.x, next.rest_x, velocity.x * drift * v.unit.inverse.x);
+    move(next.y, next.rest_y, velocity.y * drift * v.unit.inverse.y);
+    move(next.z, next.rest_z, velocity.z * drift * v.unit.inverse.z);
+    const float ahead = kick > 0.0f ? v.half.after / kick : 0.0f;
+    const Vec3f predicted = velocity + ahead * (velocity - velocity_old);
+    const Vec3f surface = own.radius * (spin + ahead * (spin - spin_old));
+    next.vx = predicted.x;
+    next.vy = predicted.y;
+    next.vz = predicted.z;
+    next.sx = surface.x;
+    next.sy = surface.y;
+    next.sz = surface.z;
+    if (writes) {
+      note_drag(i, velocity, kick);
+      v.velocity[i] = velocity;
+      v.spin[i] = spin;
+      v.next[i] = next;
+    }
+    const Vec3<std::int32_t> start = v.start[i];
+    const Vec3f moved{static_cast<float>(fraction_difference(next.x, start.x)) * v.unit.metres.x,
+                      static_cast<float>(fraction_difference(next.y, start.y)) * v.unit.metres.y,
+                      static_cast<float>(fraction_difference(next.z, start.z)) * v.unit.metres.z};
+    const float speed2 = dot(velocity, velocity) + dot(surface, surface);
+    return {{dot(moved, moved), dot(velocity, velocity), overlap, speed2 < 1.0e12f ? 0.0f : 1.0f}};
+  }
+
+  template <class Lanes>
+  GDESP_HD exec::Largest operator()(Index i, const Lanes& lanes) const {
+    using R = typename Lanes::Real;
+    const GrainRecord& own = v.now[i];
+    if (own.radius < 0.0f) return {};
+    if (own.mobility == 0.0f) {
+      if (lanes.leader()) v.next[i] = own;
+      return {};
+    }
+    const RowRange range = v.contacts.range[i];
+    Sums<R> sums;
+    for (Index k = 0; k * 8 < range.count; ++k) add_row(own, k == 0 ? i : range.overflow + k - 1, lanes, sums);
+    Vec3f force{}, torque{};
+    float overlap = 0.0f;
+    if (range.count > 0) {
+      force = {lanes.sum(sums.force.x), lanes.sum(sums.force.y), lanes.sum(sums.force.z)};
+      torque = own.radius * Vec3f{lanes.sum(sums.torque.x), lanes.sum(sums.torque.y), lanes.sum(sums.torque.z)};
+      overlap = lanes.largest(sums.overlap);
+    }
+    if (own.wall >= 0) {
+      force += v.walls[own.wall].force;
+      torque += v.walls[own.wall].torque;
+    }
+    return finish(i, own, force, torque, overlap, lanes.leader());
+  }
+};
+
+}  // namespace
+
+template <class Exec, class Law>
+void run_grain_step(const Exec& exec, const ContactLaws<Law>& laws, const GrainStepView& view, Index slots,
+                    exec::Largest* measure) {
+  if (view.contacts.rolling) {
+    exec::row_pass(exec, "dem::step", slots, GrainStep<Law, true>{laws, view}, measure);
+  } else {
+    exec::row_pass(exec, "dem::step", slots, GrainStep<Law, false>{laws, view}, measure);
+  }
+}
+
+template void run_grain_step(const exec::CompiledBackend&, const ContactLaws<HertzMindlin>&, const GrainStepView&,
+                             Index, exec::Largest*);
+template void run_grain_step(const exec::CompiledBackend&, const ContactLaws<LinearSpringDashpot>&,
+                             const GrainStepView&, Index, exec::Largest*);
+
+}  // namespace gdesp::dem

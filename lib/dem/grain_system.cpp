@@ -1,0 +1,356 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem/grain_system.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "dem/grain_motion.hpp"
+#include "dem/grain_step.hpp"
+#include "dem/grain_tables.hpp"
+#include "dem/time_step_limits.hpp"
+
+namespace gdesp::dem {
+namespace {
+
+template <class T>
+struct Gather {
+  const Index* source;
+  const T* from;
+  T* to;
+  T padding;
+  GDESP_HD void operator()(Index slot) const { to[slot] = source[slot] < 0 ? padding : from[source[slot]]; }
+};
+
+GDESP_HD inline GrainRecord padding_record() {
+  GrainRecord record{};
+  record.radius = no_radius;
+  record.mass = 1.0f;
+  record.wall = -1;
+  return record;
+}
+
+// Both buffers, so that padding and the dummy behind the last slot are in each.
+struct GatherRecords {
+  const Index* source;
+  const GrainRecord* from;
+  Index slots;
+  GrainRecord* now;
+  GDESP_HD void operator()(Index slot) const {
+    now[slot] = slot == slots || source[slot] < 0 ? padding_record() : from[source[slot]];
+  }
+};
+struct CopyRecords {
+  const GrainRecord* from;
+  GrainRecord* to;
+  GDESP_HD void operator()(Index slot) const { to[slot] = from[slot]; }
+};
+
+// The position follows the fraction bits of the record, by the short way round.
+struct FollowRecord {
+  const GrainRecord* record;
+  FixedPosition* position;
+  GDESP_HD void operator()(Index i) const {
+    const GrainRecord& r = record[i];
+    if (r.radius < 0.0f) return;
+    FixedPosition& p = position[i];
+    p.x += fraction_difference(r.x, static_cast<std::int32_t>(Domain::fraction_of(p.x)));
+    p.y += fraction_difference(r.y, static_cast<std::int32_t>(Domain::fraction_of(p.y)));
+    p.z += fraction_difference(r.z, static_cast<std::int32_t>(Domain::fraction_of(p.z)));
+  }
+};
+
+struct NoteStart {
+  const GrainRecord* record;
+  Vec3<std::int32_t>* start;
+  GDESP_HD void operator()(Index i) const { start[i] = {record[i].x, record[i].y, record[i].z}; }
+};
+// After sorting: positions inside the periods, and the columns that the coupling reads.
+struct FinishSort {
+  Domain domain;
+  const GrainRecord* record;
+  FixedPosition* position;
+  FixedPosition* sorted_position;
+  float* radius;
+  float* mass;
+  GDESP_HD void operator()(Index i) const {
+    const GrainRecord& r = record[i];
+    const bool real = r.radius > 0.0f;
+    if (real) position[i] = domain.wrapped(position[i]);
+    sorted_position[i] = position[i];
+    radius[i] = real ? r.radius : 0.0f;
+    mass[i] = real ? r.mass : 0.0f;
+  }
+};
+
+struct Release {
+  const std::int32_t* group;
+  const std::int32_t* held;   // by group; groups beyond are free
+  Index groups;
+  GrainRecord* now;
+  GDESP_HD void operator()(Index i) const {
+    GrainRecord& r = now[i];
+    if (r.radius < 0.0f) return;
+    const std::int32_t g = group[i];
+    const bool free = g < 0 || g >= groups || !held[g];
+    r.mobility = free ? 1.0f : 0.0f;
+    if (!free) r.vx = r.vy = r.vz = r.sx = r.sy = r.sz = 0.0f;
+  }
+};
+
+template <class Exec, class T>
+void shrink_discard(const Exec&, Array<T, Exec>& array, Index size) {
+  array.resize_discard(static_cast<std::size_t>(size));
+}
+
+}  // namespace
+
+template <class Exec>
+GrainSystem<Exec>::GrainSystem(const Exec& exec, const Domain& domain, const GrainTable& grains,
+                               const ContactParameters& contact, const TriangleTable& walls, const Vec3d& gravity)
+    : exec_(exec), domain_(domain), laws_(make_contact_laws(contact)), contact_(contact), gravity_(gravity),
+      contacts_(exec, contact.rolling_friction > 0.0), position_(exec), sorted_position_(exec), id_(exec), group_(exec), now_(exec),
+      next_(exec), velocity_(exec), spin_(exec), start_(exec), radius_(exec), mass_(exec), drag_impulse_(exec),
+      measure_(exec), held_(exec), scratch_position_(exec), scratch_id_(exec), scratch_group_(exec),
+      scratch_vector_(exec) {
+  const GrainStart state = make_grain_start(domain, grains);
+  largest_radius_ = state.largest_radius;
+  smallest_radius_ = state.smallest_radius;
+  skin_ = contact.skin * 2.0 * largest_radius_;
+  critical_time_ = critical_time(state, contact);
+  // Cells as wide as the commonest reach; separations must stay below half a tile.
+  const double reach = 2.0 * largest_radius_ + skin_;
+  check_reach(domain, reach);
+  set_ = ClusterSet<Exec>(exec, domain, std::max(2.0 * state.mean_radius + skin_, 1.0e-3 * domain.tile_size.x));
+  walls_ = WallContacts<Exec>(exec, domain,
+                              make_wall_mesh(walls, 1.0e-5 * smallest_radius_, domain.dimensions, 8.0 * reach),
+                              std::max(state.mass, 1.0e-30) * std::ldexp(1.0, -50));
+  slots_ = static_cast<Index>(state.record.size());
+  position_.assign(state.position);
+  id_.assign(state.id);
+  group_.assign(state.group);
+  now_.assign(state.record);
+  velocity_.assign(state.velocity);
+  spin_.assign(state.spin);
+  speed2_ = state.speed2;
+  measure_.resize_discard(2);
+  list_now();
+}
+
+template <class Exec>
+double GrainSystem<Exec>::stable_time_step(double share) const {
+  const double contact = share * critical_time_;
+  const double speed = std::sqrt(static_cast<double>(speed2_));
+  return speed > 0.0 ? std::min(contact, 0.1 * smallest_radius_ / speed) : contact;
+}
+
+template <class Exec>
+void GrainSystem<Exec>::set_release_times(const std::vector<double>& by_group) {
+  release_time_ = by_group;
+  held_group_.assign(by_group.size(), 0);
+  for (std::size_t g = 0; g < by_group.size(); ++g) held_group_[g] = by_group[g] > time_ ? 1 : 0;
+  apply_release();
+}
+
+template <class Exec>
+void GrainSystem<Exec>::apply_release() {
+  held_.assign(held_group_);
+  exec::parallel_for(exec_, "dem::release", slots_,
+                     Release{group_.data(), held_.data(), static_cast<Index>(held_group_.size()), now_.data()});
+  must_rebuild_ = true;
+}
+
+template <class Exec>
+void GrainSystem<Exec>::set_bodies(const std::vector<BodyMotionState>& bodies) {
+  bodies_ = bodies;
+}
+
+template <class Exec>
+std::vector<BodyMoment> GrainSystem<Exec>::moments(double share, double duration) const {
+  std::vector<BodyMoment> all(static_cast<std::size_t>(walls_.bodies()));
+  for (std::size_t b = 1; b < all.size() && b <= bodies_.size(); ++b) all[b] = body_at(bodies_[b - 1], share, duration);
+  return all;
+}
+
+template <class Exec>
+BodyMotionState GrainSystem<Exec>::body_state(std::size_t number) const {
+  return number >= 1 && number <= bodies_.size() ? bodies_[number - 1] : BodyMotionState{};
+}
+
+template <class Exec>
+bool GrainSystem<Exec>::stale(const std::vector<BodyMoment>& moments) const {
+  const double half = 0.5 * skin_;
+  if (must_rebuild_ || static_cast<double>(moved2_) > half * half) return true;
+  for (std::size_t b = 1; b < moments.size(); ++b) {
+    const ListedPose& listed = listed_poses_[b];
+    const BodyMotionState state = body_state(b);
+    if ((listed.present != 0) != state.present) return true;
+    const double reach = walls_.body_reach(static_cast<int>(b), state.centre_initial);
+    if (state.present && moved_since(listed, moments[b], reach) > half) return true;
+  }
+  return false;
+}
+
+template <class Exec>
+template <class T>
+void GrainSystem<Exec>::gather(Array<T, Exec>& values, Array<T, Exec>& scratch, const T& padding) {
+  shrink_discard(exec_, scratch, set_.slots());
+  exec::parallel_for(exec_, "dem::sort", set_.slots(), Gather<T>{set_.source(), values.data(), scratch.data(), padding});
+  values.swap(scratch);
+}
+
+template <class Exec>
+void GrainSystem<Exec>::synchronize_positions() {
+  exec::parallel_for(exec_, "dem::positions", slots_, FollowRecord{now_.data(), position_.data()});
+}
+
+template <class Exec>
+void GrainSystem<Exec>::sort() {
+  set_.build(position_, id_, slots_);
+  lost_ += set_.lost();
+  slots_ = set_.slots();
+  gather(position_, scratch_position_, FixedPosition{});
+  gather(id_, scratch_id_, no_particle);
+  gather(group_, scratch_group_, std::int32_t{0});
+  gather(velocity_, scratch_vector_, Vec3f{});
+  gather(spin_, scratch_vector_, Vec3f{});
+  shrink_discard(exec_, next_, slots_ + 1);
+  exec::parallel_for(exec_, "dem::sort", slots_ + 1, GatherRecords{set_.source(), now_.data(), slots_, next_.data()});
+  now_.swap(next_);
+  shrink_discard(exec_, sorted_position_, slots_);
+  shrink_discard(exec_, radius_, slots_);
+  shrink_discard(exec_, mass_, slots_);
+  exec::parallel_for(exec_, "dem::sort", slots_,
+                     FinishSort{domain_, now_.data(), position_.data(), sorted_position_.data(), radius_.data(),
+                                mass_.data()});
+  drift_ = 0.0;
+  ++sorts_;
+  set_fluid(nullptr, nullptr, nullptr, nullptr);
+}
+
+template <class Exec>
+void GrainSystem<Exec>::list(const std::vector<BodyMoment>& moments) {
+  shrink_discard(exec_, start_, slots_);
+  exec::parallel_for(exec_, "dem::sort", slots_, NoteStart{now_.data(), start_.data()});
+  listed_poses_.clear();
+  for (std::size_t b = 0; b < moments.size(); ++b) listed_poses_.push_back(listed_pose(body_state(b), moments[b]));
+}
+
+template <class Exec>
+void GrainSystem<Exec>::rebuild(const std::vector<BodyMoment>& moments, bool sorted_anew) {
+  synchronize_positions();
+  drift_ += std::sqrt(static_cast<double>(moved2_));
+  if (sorted_anew) sort();
+  list(moments);
+  contacts_.build(set_, sorted_anew ? set_.source() : nullptr, now_.data(), position_.data(),
+                  {static_cast<float>(largest_radius_), static_cast<float>(skin_), static_cast<float>(drift_)},
+                  !listed_);
+  if (!walls_.empty()) {
+    walls_.build(set_, position_, now_.data(), listed_poses_, static_cast<float>(skin_), !listed_);
+  }
+  shrink_discard(exec_, next_, slots_ + 1);
+  exec::parallel_for(exec_, "dem::sort", slots_ + 1, CopyRecords{now_.data(), next_.data()});
+  listed_ = true;
+  must_rebuild_ = false;
+  moved2_ = 0.0f;
+  ++rebuilds_;
+}
+
+template <class Exec>
+double GrainSystem<Exec>::moved_since_sorting() const {
+  return drift_ + std::sqrt(static_cast<double>(moved2_));
+}
+
+template <class Exec>
+bool GrainSystem<Exec>::sorting_is_due() const {
+  return moved_since_sorting() > 0.02 * largest_radius_;
+}
+
+template <class Exec>
+void GrainSystem<Exec>::sort_grains() {
+  // With the bodies where they were listed: they have not moved since the last sub-step.
+  rebuild(moments(1.0, 0.0), true);
+}
+
+template <class Exec>
+void GrainSystem<Exec>::set_fluid(const float* drag_coefficient, const Vec3f* fluid_velocity, const Vec3f* other_force,
+                                  const float* added_mass) {
+  fluid_ = {};
+  if (!drag_coefficient) return;
+  if (drag_impulse_.size() != static_cast<std::size_t>(slots_)) {
+    shrink_discard(exec_, drag_impulse_, slots_);
+    clear_drag_impulse();
+  }
+  fluid_ = {drag_coefficient, fluid_velocity, other_force, added_mass, drag_impulse_.data()};
+}
+
+template <class Exec>
+void GrainSystem<Exec>::clear_drag_impulse() {
+  drag_impulse_.fill_bytes(0);
+}
+
+template <class Exec>
+template <class Law>
+void GrainSystem<Exec>::run(const ContactLaws<Law>& pair, const ContactLaws<Law>& wall,
+                            const std::vector<BodyPose>& poses, const HalfSteps& half) {
+  const float inertia = inertia_factor(domain_.dimensions);
+  if (walls_.grains() > 0) {
+    walls_.step(wall, now_.data(), start_.data(), poses, half, inertia, measure_.data());
+    overlap_ = std::max(overlap_, measure_.read(0).value[measure_overlap]);
+  }
+  GrainStepView view{contacts_.view(), position_unit(domain_), now_.data(), next_.data(), start_.data(),
+                     velocity_.data(), spin_.data(), walls_.forces(), fluid_, Vec3f(gravity_), inertia, half};
+  run_grain_step(exec_, pair, view, slots_, measure_.data() + 1);
+  now_.swap(next_);
+  const exec::Largest measured = measure_.read(1);
+  moved2_ = measured.value[measure_displacement2];
+  speed2_ = measured.value[measure_speed2];
+  overlap_ = std::max(overlap_, measured.value[measure_overlap]);
+  if (measured.value[measure_broken] > 0.0f) {
+    throw Error(ErrorKind::numerical, "grains: a speed of more than 1e6 m/s, or not a number, at t = " +
+                                          std::to_string(time_) + " s, sub-step " + std::to_string(substeps_) +
+                                          " of " + std::to_string(2.0 * half.after) +
+                                          " s; a smaller grain time step or softer initial packing is needed");
+  }
+}
+
+template <class Exec>
+void GrainSystem<Exec>::advance(double dt, int substeps) {
+  for (std::size_t g = 0; g < held_group_.size(); ++g) {
+    if (held_group_[g] && release_time_[g] <= time_ + 1.0e-9 * dt) {
+      held_group_[g] = 0;
+      apply_release();
+    }
+  }
+  const double h = dt / substeps;
+  for (int k = 0; k < substeps; ++k) {
+    const std::vector<BodyMoment> now = moments(static_cast<double>(k) / substeps, dt);
+    if (stale(now)) rebuild(now, !fluid_.drag_coefficient && moved_since_sorting() > largest_radius_);
+    std::vector<BodyPose> poses;
+    for (std::size_t b = 0; b < now.size(); ++b) poses.push_back(pose_since(listed_poses_[b], body_state(b), now[b]));
+    const HalfSteps half{static_cast<float>(half_before_), static_cast<float>(0.5 * h)};
+    if (laws_.kind == ContactLawKind::hertz) {
+      run(laws_.hertz, laws_.hertz_wall, poses, half);
+    } else {
+      run(laws_.linear, laws_.linear_wall, poses, half);
+    }
+    half_before_ = 0.5 * h;
+    ++substeps_;
+  }
+  time_ += dt;
+  synchronize_positions();
+}
+
+template <class Exec>
+std::vector<BodyImpulse> GrainSystem<Exec>::take_body_impulses() {
+  return walls_.take_impulses();
+}
+
+template <class Exec>
+void GrainSystem<Exec>::list_now() {
+  rebuild(moments(0.0, 0.0), true);
+}
+
+template class GrainSystem<exec::CompiledBackend>;
+
+}  // namespace gdesp::dem

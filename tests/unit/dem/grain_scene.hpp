@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Small scenes of grains for the tests.
+#pragma once
+
+#include <cstdint>
+
+#include "dem/grain_system.hpp"
+
+namespace gdesp::dem::test {
+
+using Grains = GrainSystem<exec::OpenMP>;
+
+/// A box of space (m) without walls; blocks 64 spacings wide.
+inline Domain space(const Vec3d& lower, const Vec3d& upper, double spacing, int dimensions = 3) {
+  const bool periodic[3] = {false, false, false};
+  return make_domain(lower, upper, spacing, periodic, dimensions);
+}
+
+inline void add_grain(GrainTable& table, const Vec3d& position, double diameter, double density,
+                      const Vec3d& velocity = {}, const Vec3d& spin = {}) {
+  table.position.push_back(position);
+  table.diameter.push_back(static_cast<float>(diameter));
+  table.density.push_back(static_cast<float>(density));
+  table.velocity.push_back(Vec3f(velocity));
+  table.angular_velocity.push_back(Vec3f(spin));
+}
+
+/// A rectangle a, b, c, d (its front by the right-hand rule) as two triangles.
+inline void add_rectangle(TriangleTable& table, const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d,
+                          std::int32_t body = 0) {
+  const auto base = static_cast<std::int32_t>(table.vertex.size());
+  table.vertex.insert(table.vertex.end(), {a, b, c, d});
+  table.triangle.push_back({base, base + 1, base + 2});
+  table.triangle.push_back({base, base + 2, base + 3});
+  table.body.insert(table.body.end(), 2, body);
+}
+
+/// A floor at height z with cells of `mesh` metres, front upwards.
+inline TriangleTable floor_mesh(double x0, double x1, double y0, double y1, double z, double mesh) {
+  TriangleTable table;
+  const int nx = static_cast<int>((x1 - x0) / mesh + 0.5), ny = static_cast<int>((y1 - y0) / mesh + 0.5);
+  for (int i = 0; i <= nx; ++i) {
+    for (int j = 0; j <= ny; ++j) table.vertex.push_back({x0 + i * mesh, y0 + j * mesh, z});
+  }
+  const auto at = [&](int i, int j) { return static_cast<std::int32_t>(i * (ny + 1) + j); };
+  for (int i = 0; i < nx; ++i) {
+    for (int j = 0; j < ny; ++j) {
+      table.triangle.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      table.triangle.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  }
+  table.body.assign(table.triangle.size(), 0);
+  return table;
+}
+
+/// A closed box seen from inside.
+inline TriangleTable tank(const Vec3d& low, const Vec3d& high) {
+  TriangleTable table;
+  const Vec3d p[8] = {low, {high.x, low.y, low.z}, {high.x, high.y, low.z}, {low.x, high.y, low.z},
+                      {low.x, low.y, high.z}, {high.x, low.y, high.z}, high, {low.x, high.y, high.z}};
+  add_rectangle(table, p[0], p[1], p[2], p[3]);  // floor, upwards
+  add_rectangle(table, p[4], p[7], p[6], p[5]);  // lid
+  add_rectangle(table, p[0], p[3], p[7], p[4]);  // x low, towards +x
+  add_rectangle(table, p[1], p[5], p[6], p[2]);
+  add_rectangle(table, p[0], p[4], p[5], p[1]);  // y low
+  add_rectangle(table, p[3], p[2], p[6], p[7]);
+  return table;
+}
+
+/// Numbers in [0, 1) that are the same everywhere.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : state_(seed * 0x9e3779b97f4a7c15ull + 1) {}
+  double operator()() {
+    state_ ^= state_ << 13;
+    state_ ^= state_ >> 7;
+    state_ ^= state_ << 17;
+    return static_cast<double>(state_ >> 11) * (1.0 / 9007199254740992.0);
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+}  // namespace gdesp::dem::test
