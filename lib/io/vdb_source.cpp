@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "io/point_source.hpp"
+#include "io/vdb_guard.hpp"
 
 namespace gdesp {
 namespace {
@@ -18,7 +19,10 @@ using openvdb::points::PointDataTree;
 class VdbSource : public PointSource {
  public:
   VdbSource(std::string path, PointDataGrid::Ptr grid)
-      : path_(std::move(path)), grid_(std::move(grid)), size_(openvdb::points::pointCount(grid_->tree())) {}
+      : path_(std::move(path)), grid_(std::move(grid)), size_(openvdb::points::pointCount(grid_->tree())) {
+    if (size_ > 0 && attributes()->find("P") == AttributeSet::INVALID_POS)
+      throw Error(ErrorKind::input, path_ + ": its points have no position attribute \"P\"");
+  }
 
   std::size_t size() const override { return size_; }
 
@@ -90,6 +94,15 @@ class VdbSource : public PointSource {
 
   template <class T>
   void copy(const std::string& name, T* values) const {
+    try {
+      copy_by_type(name, values);
+    } catch (const openvdb::Exception& problem) {
+      throw Error(ErrorKind::input, path_ + ": attribute " + name + ": " + problem.what());
+    }
+  }
+
+  template <class T>
+  void copy_by_type(const std::string& name, T* values) const {
     const std::string type = type_of(name);
     if (type == "float") copy_as<float>(name, values);
     else if (type == "double") copy_as<double>(name, values);
@@ -123,6 +136,7 @@ PointDataGrid::Ptr first_point_grid(const std::string& path) {
 }  // namespace
 
 std::unique_ptr<PointSource> open_vdb_points(const std::string& path) {
+  refuse_torn_vdb(path);
   try {
     return std::make_unique<VdbSource>(path, first_point_grid(path));
   } catch (const openvdb::Exception& problem) {

@@ -6,6 +6,7 @@
 #include <vtkDataArray.h>
 #include <vtkDataSetReader.h>
 #include <vtkIdList.h>
+#include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
@@ -19,6 +20,7 @@
 
 #include <cmath>
 #include <mutex>
+#include <string_view>
 
 #include "core/error.hpp"
 #include "io/point_source.hpp"
@@ -34,12 +36,16 @@ class MessageCatcher : public vtkOutputWindow {
   vtkTypeMacro(MessageCatcher, vtkOutputWindow);
   void DisplayText(const char* text) override { keep(text); }
   void DisplayErrorText(const char* text) override { keep(text); }
-  void DisplayWarningText(const char*) override {}
-  void DisplayGenericWarningText(const char*) override {}
+  void DisplayWarningText(const char* text) override { keep_if_error(text); }
+  void DisplayGenericWarningText(const char* text) override { keep_if_error(text); }
   void DisplayDebugText(const char*) override {}
   std::string messages;
 
  private:
+  /// The legacy reader warns "Error reading binary data!" and goes on.
+  void keep_if_error(const char* text) {
+    if (std::string_view(text).find("rror") != std::string_view::npos) keep(text);
+  }
   void keep(const char* text) {
     if (messages.size() < 2000) messages += text;
   }
@@ -62,6 +68,7 @@ vtkSmartPointer<vtkPointSet> read_file(const std::string& path) {
   const vtkSmartPointer<vtkOutputWindow> before = vtkOutputWindow::GetInstance();
   const vtkNew<MessageCatcher> catcher;
   vtkOutputWindow::SetInstance(catcher);
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
   vtkSmartPointer<vtkPointSet> data;
   unsigned long code = 0;
   {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <numeric>
 #include <stdexcept>
 
@@ -60,8 +61,9 @@ class VtpStream {
     text("<DataArray type=\"" + std::string(vtk_name(a.type)) + "\" Name=\"" + xml_escaped(a.name) +
          "\" NumberOfComponents=\"" + std::to_string(a.components) + "\" " +
          (with_tuples ? "NumberOfTuples=\"" + std::to_string(a.tuples) + "\" " : "") + "format=\"binary\">\n");
-    base64(reinterpret_cast<const unsigned char*>(&bytes), sizeof bytes);
-    base64(static_cast<const unsigned char*>(a.data), bytes);
+    put(&bytes, sizeof bytes);
+    put(a.data, bytes);
+    flush();
     text("\n</DataArray>\n");
   }
 
@@ -81,29 +83,51 @@ class VtpStream {
   void counting_array(std::size_t n) {
     const std::uint64_t bytes = std::uint64_t(n) * sizeof(std::int32_t);
     text("<DataArray type=\"Int32\" Name=\"connectivity\" format=\"binary\">\n");
-    base64(reinterpret_cast<const unsigned char*>(&bytes), sizeof bytes);
+    put(&bytes, sizeof bytes);
     std::vector<std::int32_t> numbers(std::min<std::size_t>(n, block / 4));
     for (std::size_t first = 0; first < n; first += numbers.size()) {
       const std::size_t count = std::min(numbers.size(), n - first);
       std::iota(numbers.begin(), numbers.begin() + std::ptrdiff_t(count), static_cast<std::int32_t>(first));
-      base64(reinterpret_cast<const unsigned char*>(numbers.data()), count * 4);
+      put(numbers.data(), count * 4);
     }
+    flush();
     text("\n</DataArray>\n");
   }
 
  private:
   static constexpr std::size_t block = 3 * 4 * 32768;  // bytes; a multiple of 3, so that blocks join seamlessly
 
-  void base64(const unsigned char* bytes, std::size_t count) {
-    while (count > 0) {
-      const std::size_t now = std::min(count, block);
-      base64_encode(bytes, now, text_.data());
-      file_.write(text_.data(), base64_size(now));
+  void encode(const unsigned char* bytes, std::size_t count) {
+    base64_encode(bytes, count, text_.data());
+    file_.write(text_.data(), base64_size(count));
+  }
+
+  /// Adds bytes to the array's one base64 stream; up to two wait until the next ones complete their triple.
+  void put(const void* data, std::size_t count) {
+    const auto* bytes = static_cast<const unsigned char*>(data);
+    while (waiting_count_ > 0 && waiting_count_ < 3 && count > 0) {
+      waiting_[waiting_count_++] = *bytes++;
+      --count;
+      if (waiting_count_ == 3) flush();
+    }
+    while (count >= 3) {
+      const std::size_t now = std::min(count / 3 * 3, block);
+      encode(bytes, now);
       bytes += now;
       count -= now;
     }
+    if (count == 0) return;
+    std::memcpy(waiting_, bytes, count % 3);  // none waited here: those before are written
+    waiting_count_ = count;
   }
 
+  void flush() {
+    encode(waiting_, waiting_count_);
+    waiting_count_ = 0;
+  }
+
+  unsigned char waiting_[3] = {};
+  std::size_t waiting_count_ = 0;
   SafeFile& file_;
   std::vector<char> text_;
 };
@@ -143,7 +167,9 @@ void write_vtp(const std::string& path, const VtpContent& content) {
            "NumberOfPolys=\"" + std::to_string(triangles) + "\">\n");
   out.section("PointData", content.points, points);
   out.section("CellData", content.cells, triangles);
-  out.section("Points", {{"Points", ScalarType::float64, 3, position.data(), points}}, points);
+  out.text("<Points>\n");
+  out.array({"Points", ScalarType::float64, 3, position.data(), points}, false);
+  out.text("</Points>\n");
   write_cells(out, content, points, triangles);
   out.text("</Piece>\n</PolyData>\n</VTKFile>\n");
   file.commit();

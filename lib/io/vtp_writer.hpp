@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // VTK's PolyData XML (VTP), inline binary, not compressed: the one flavour that every ParaView reads (5.11 on
 // Debian cannot read appended data) and the fastest to write. Arrays are written from where they lie.
-// Format: VTK User's Guide, "VTK File Formats", XML formats; base64 of a UInt64 byte count, then of the data.
+// Format: VTK User's Guide, "VTK File Formats", XML formats; one base64 stream of a UInt64 byte count and the data.
 #pragma once
 
 #include <cstdint>

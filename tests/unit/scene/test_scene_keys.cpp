@@ -51,6 +51,19 @@ TEST(SceneKeys, page_lists_exactly_the_keys) {
   for (const std::string& row : documented) EXPECT_TRUE(due.count(row)) << "the page has in excess:\n" << row;
 }
 
+/// The example at the head of the page is a scene.
+TEST(SceneKeys, example_of_the_page_is_accepted) {
+  const std::string page = text_of_file(GDESP_SOURCE_DIR "/docs/formats/scene.md");
+  const std::size_t start = page.find("```toml\n"), end = page.find("\n```", start + 8);
+  ASSERT_NE(start, std::string::npos);
+  ASSERT_NE(end, std::string::npos);
+  const TempFolder folder;
+  folder.write("valley.tif", "x");
+  const Scene scene = read_scene(folder.write("s.toml", page.substr(start + 8, end - start - 7)), {});
+  EXPECT_EQ(scene.fluid.fill.at(0).level, 2125.0);
+  EXPECT_EQ(scene.slides.at(0).shape.uniform_thickness, 12.0);
+}
+
 TEST(DidYouMean, finds_the_near_and_leaves_the_far) {
   const std::vector<std::string> words{"density", "diameter", "kind", "box"};
   EXPECT_EQ(did_you_mean("denstiy", words), "density");
