@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cmath>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -70,6 +71,7 @@ class GrainSystem {
   /// True when some grain may have left its cell in set() by more than a hundredth of a diameter: sort before lists
   /// are made from set().
   bool sorting_is_due() const;
+  double largest_speed() const { return std::sqrt(static_cast<double>(speed2_)); }   ///< m/s, at the last sub-step
   long sorts() const { return sorts_; }                     ///< changes with the order of slots
 
   // Coupling. The arrays are the caller's, by slot, and must live until the next set_fluid() or sort_grains() (which
