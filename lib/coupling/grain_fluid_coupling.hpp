@@ -17,12 +17,12 @@
 //   f_i = C_m rho V_i (Du/Dt - dv/dt), C_m = 1/2 for a sphere. Source: Maxey and Riley (1983), doi:10.1063/1.864230.
 #pragma once
 
+#include "coupling/drag_kinds.hpp"
+#include "dem/grain_system.hpp"
 #include "neighbors/cluster_list.hpp"
 #include "sph/fluid_system.hpp"
 
 namespace gdesp::coupling {
-
-enum class Drag { ergun_wen_yu, di_felice };
 
 struct CouplingLaw {
   Drag drag = Drag::di_felice;
@@ -39,45 +39,31 @@ struct CouplingLaw {
 /// Lowest porosity the laws are given (random loose packings lie near 0.4; closer is outside Ergun's data).
 inline constexpr float porosity_floor = 0.3f;
 
-/// Grains by slot, as the coupling reads them.
-struct CoupledGrains {
-  CellGridView grid;                 ///< of their ClusterSet
-  Index slots = 0;
-  const FixedPosition* position = nullptr;
-  const Vec3f* velocity = nullptr;   ///< m/s
-  const float* radius = nullptr;     ///< m
-  const float* mass = nullptr;       ///< kg
-  const std::uint32_t* id = nullptr;
-  const std::int32_t* group = nullptr;
-};
-
 template <class Exec>
 class GrainFluidCoupling {
  public:
   GrainFluidCoupling(const Exec& exec, const Domain& domain, const CouplingLaw& law);
 
-  /// Builds both lists for the current order of both sets; valid while water and grains move less than skin/2 (m).
-  void rebuild(const CoupledGrains& grains, const sph::FluidSystem<Exec>& fluid, double skin);
+  /// Builds both lists for the current order of both sets; valid while the movements of water and grains add up to
+  /// less than `skin` (m).
+  void rebuild(const dem::GrainSystem<Exec>& grains, const sph::FluidSystem<Exec>& fluid, double skin);
   /// False when no grain is in reach of water: nothing else needs to be called.
   bool in_contact() const { return grain_fluid_.entries() > 0; }
 
   /// Packs the grains' records at their place now.
-  void place(const CoupledGrains& grains);
+  void place(const dem::GrainSystem<Exec>& grains);
   /// Porosity at the fluid particles.
   void update_porosity(sph::FluidSystem<Exec>& fluid);
-  /// Forces on grains from the fluid's records and its accelerations: fills the four arrays below for a step dt (s).
-  void gather_forces(const CoupledGrains& grains, sph::FluidSystem<Exec>& fluid, float dt);
-  /// The reaction, from what the grains took over the step: external acceleration of the fluid. drag_impulse by slot,
-  /// N s; velocity_change by slot, m/s (for the added mass).
-  void react(const CoupledGrains& grains, sph::FluidSystem<Exec>& fluid, const Vec3d* drag_impulse,
-             const Vec3f* velocity_change, float dt);
+  /// From the fluid's records and its accelerations: drag coefficient, fluid velocity, other force and added mass of
+  /// the grains for a step dt (s).
+  void gather_forces(dem::GrainSystem<Exec>& grains, const sph::FluidSystem<Exec>& fluid, float dt);
+  /// The reaction to what the grains took since gather_forces: external acceleration of the fluid.
+  void react(const dem::GrainSystem<Exec>& grains, sph::FluidSystem<Exec>& fluid, float dt);
 
-  // By grain slot.
-  const float* drag_coefficient() const { return drag_coefficient_.data(); }   ///< kg/s
-  const Vec3f* fluid_velocity() const { return fluid_velocity_.data(); }       ///< m/s
-  const Vec3f* other_force() const { return other_force_.data(); }             ///< N
-  const float* added_mass() const { return added_mass_.data(); }               ///< kg
+  /// By grain slot at the last gather_forces.
   const float* porosity() const { return porosity_.data(); }
+  /// N: sum of the forces that the last react() took from the grains, for the check of the balance.
+  Vec3d reaction_of_grains() const;
   double smoothing_length() const { return law_.smoothing_length; }
 
  private:
@@ -85,13 +71,14 @@ class GrainFluidCoupling {
   Domain domain_;
   CouplingLaw law_;
   ClusterList<Exec> grain_fluid_, fluid_grain_;
+  Index fluid_slots_ = 0, grain_slots_ = 0;
   Array<float, Exec> real_diameter_;
-  Array<float, Exec> record_;        ///< x y z V | Fx/S Fy/S Fz/S spare
-  Array<float, Exec> sums_;          ///< 8 rows of 4 per cluster, as gathered
-  Array<float, Exec> weight_;        ///< S_i
-  Array<float, Exec> drag_coefficient_, added_mass_, porosity_;
+  Array<float, Exec> record_;            ///< x y z V | Fx/S Fy/S Fz/S S, 4 each, per cluster
+  Array<float, Exec> sums_;              ///< 8 rows of 4 per cluster, as gathered
+  Array<Vec3f, Exec> velocity_before_;   ///< m/s, when placed
+  Array<float, Exec> porosity_, drag_coefficient_, added_mass_;
   Array<Vec3f, Exec> fluid_velocity_, other_force_;
-  Array<float, Exec> reaction_;      ///< 3 rows of 4 per fluid cluster
+  Array<float, Exec> reaction_;          ///< 3 rows of 4 per fluid cluster
 };
 
 }  // namespace gdesp::coupling

@@ -29,6 +29,7 @@ CoupledSimulation<Exec>::CoupledSimulation(const Exec& exec, const SimulationInp
   input_.grains = {};
   if (input_.time.cfl <= 0.0) input_.time.cfl = input_.time.scheme == TimeScheme::split ? split_cfl : verlet_cfl;
   place_bodies(0.0);
+  if (!input.grains.position.empty()) start_grains(input);
   fluid_.extrapolate_walls();
   extremes_ = fluid_.extremes();
 }
@@ -48,6 +49,13 @@ double CoupledSimulation<Exec>::choose_step(double end) {
     dt = limit.dt;
     limited_by_ = limit.bound;
   }
+  if (grains_ && fluid_.particles() == 0) {
+    dt = 50.0 * grain_dt_;
+    limited_by_ = "grains";
+  } else if (grains_ && !input_.time.multirate && grain_dt_ < dt) {
+    dt = grain_dt_;
+    limited_by_ = "grains";
+  }
   // End exactly at `end`, without a sliver of a step before it.
   if (left <= dt * (1.0 + 1e-9)) { limited_by_ = "output"; return left; }
   if (left < 2.0 * dt) { limited_by_ = "output"; return 0.5 * left; }
@@ -60,11 +68,13 @@ void CoupledSimulation<Exec>::make_room_for(double dt) {
                  dt * (std::sqrt(static_cast<double>(extremes_.acceleration2)));
   for (const auto& body : body_states_) speed = std::max(speed, static_cast<double>(norm(body.velocity)));
   const double move = 1.2 * speed * dt;
-  if (fluid_.lists_are_stale(move)) {
+  const bool stale = fluid_.lists_are_stale(move);
+  if (stale) {
     fluid_.rebuild(move);
     ++rebuilds_;
   }
   fluid_.note_move(move);
+  if (coupling_) refresh_coupling(move + 1.2 * grain_speed_ * dt, stale);
 }
 
 template <class Exec>
@@ -84,9 +94,10 @@ void CoupledSimulation<Exec>::place_bodies(double t) {
 }
 
 template <class Exec>
-void CoupledSimulation<Exec>::split_step(float dt) {
+void CoupledSimulation<Exec>::fluid_split_step(float dt) {
   place_bodies(time_ + 0.5 * static_cast<double>(dt));
   fluid_.half_drift(0.5f * dt, density_lag_ + 0.5f * dt);
+  porosity_now();
   if (input_.fluid_parameters.extrapolated_walls) {
     fluid_.extrapolate_walls();
   } else {
@@ -94,6 +105,7 @@ void CoupledSimulation<Exec>::split_step(float dt) {
     fluid_.evolve_dynamic_walls(dt);
   }
   fluid_.momentum_pass();
+  couple_grains(static_cast<double>(dt));
   fluid_.kick_drift(dt, 0.5f * dt);
   place_bodies(time_ + static_cast<double>(dt));
   fluid_.continuity_pass();
@@ -101,9 +113,10 @@ void CoupledSimulation<Exec>::split_step(float dt) {
 }
 
 template <class Exec>
-void CoupledSimulation<Exec>::verlet_step(float dt) {
+void CoupledSimulation<Exec>::fluid_verlet_step(float dt) {
   place_bodies(time_ + static_cast<double>(dt));
   fluid_.verlet_predict(dt);
+  porosity_now();
   if (input_.fluid_parameters.extrapolated_walls) {
     fluid_.extrapolate_walls();
   } else {
@@ -111,17 +124,23 @@ void CoupledSimulation<Exec>::verlet_step(float dt) {
     fluid_.evolve_dynamic_walls(dt);
   }
   fluid_.combined_pass();
+  couple_grains(static_cast<double>(dt));
   fluid_.verlet_correct(dt);
 }
 
 template <class Exec>
 void CoupledSimulation<Exec>::step(double end) {
   const double dt = choose_step(end);
-  make_room_for(dt);
-  if (input_.time.scheme == TimeScheme::split) {
-    split_step(static_cast<float>(dt));
+  if (fluid_.particles() == 0) {
+    place_bodies(time_ + dt);
+    advance_grains(dt);
   } else {
-    verlet_step(static_cast<float>(dt));
+    make_room_for(dt);
+    if (input_.time.scheme == TimeScheme::split) {
+      fluid_split_step(static_cast<float>(dt));
+    } else {
+      fluid_verlet_step(static_cast<float>(dt));
+    }
   }
   extremes_ = fluid_.extremes();
   if (extremes_.non_finite > 0) {
@@ -154,11 +173,24 @@ Diagnostics CoupledSimulation<Exec>::diagnostics() {
   d.wall_particles = fluid_.wall_particles();
   d.lost_fluid = fluid_.lost();
   d.rebuilds = rebuilds_;
+  if (grains_) {
+    const dem::GrainSums grains = grains_->sums();
+    d.grains = grains.particles;
+    d.grain_mass = grains.mass;
+    d.grain_momentum = grains.momentum;
+    d.grain_kinetic = grains.kinetic_energy;
+    d.grain_potential = grains.potential_energy;
+    d.grain_elastic = grains.elastic_energy;
+    d.largest_grain_speed = grains.largest_speed;
+    d.largest_overlap = grains.largest_overlap;
+    d.lost_grains = grains_->lost();
+    d.grain_substeps = grains_->substeps();
+  }
   return d;
 }
 
 template <class Exec>
-GrainTable CoupledSimulation<Exec>::grains() { return {}; }
+GrainTable CoupledSimulation<Exec>::grains() { return grains_ ? grains_->table() : GrainTable{}; }
 
 template <class Exec>
 std::vector<BodyPose> CoupledSimulation<Exec>::bodies() {

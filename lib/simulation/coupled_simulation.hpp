@@ -2,6 +2,8 @@
 // The step sequence on one back end.
 #pragma once
 
+#include "coupling/grain_fluid_coupling.hpp"
+#include "dem/grain_system.hpp"
 #include "simulation/simulation.hpp"
 #include "sph/fluid_system.hpp"
 
@@ -24,14 +26,27 @@ class CoupledSimulation final : public Simulation {
  private:
   double choose_step(double end);
   void make_room_for(double dt);
-  void split_step(float dt);
-  void verlet_step(float dt);
+  void fluid_split_step(float dt);
+  void fluid_verlet_step(float dt);
   void place_bodies(double t);
+  // Grains and coupling (coupled_grains.cpp).
+  void start_grains(const SimulationInput& input);
+  bool grains_in_water() const { return coupling_ && coupling_->in_contact(); }
+  void refresh_coupling(double fluid_move, bool fluid_sorted);
+  void porosity_now();
+  void couple_grains(double dt);
+  void advance_grains(double dt);
+  int substeps_for(double dt) const;
 
   Exec exec_;
   SimulationInput input_;             ///< parameters; the particle tables are emptied after the start
   Domain domain_;
   sph::FluidSystem<Exec> fluid_;
+  std::unique_ptr<dem::GrainSystem<Exec>> grains_;
+  std::unique_ptr<coupling::GrainFluidCoupling<Exec>> coupling_;
+  double coupling_moved_ = 0.0, coupling_skin_ = 0.0, grain_dt_ = 0.0, grain_speed_ = 0.0;
+  long coupled_rebuild_ = -1;         ///< of the grains, when the coupling's lists were made
+  bool water_reset_ = true;           ///< porosity 1 and no reaction are in place
   std::vector<sph::WallBodyState> body_states_;
   sph::FluidExtremes extremes_;
   double time_ = 0.0, last_dt_ = 0.0;

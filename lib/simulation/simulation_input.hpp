@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "coupling/drag_kinds.hpp"
+#include "dem/contact_parameters.hpp"
 #include "particles/particle_tables.hpp"
 #include "sph/fluid_parameters.hpp"
 
@@ -15,11 +17,9 @@ enum class TimeScheme {
   verlet,  ///< velocity Verlet, eqs A.1-A.3 of the paper (one full pass)
 };
 
-enum class DragLaw { ergun_wen_yu, di_felice };
-
 struct CouplingParameters {
   bool enabled = true;
-  DragLaw drag = DragLaw::di_felice;
+  coupling::Drag drag = coupling::Drag::di_felice;
   double smoothing_length = 0.0;   ///< m; 0: max(h, 2 d_max)
   double added_mass = 0.5;         ///< coefficient times displaced fluid mass
   std::vector<double> real_diameter;  ///< m per grain group, for drag; 0: the grain's own
@@ -40,6 +40,7 @@ struct SimulationInput {
   FluidTable fluid;
   BoundaryTable boundary;
   GrainTable grains;
+  dem::ContactParameters contact;
   std::vector<double> release_time;  ///< s per grain group
   TriangleTable walls;
   std::vector<Body> bodies;

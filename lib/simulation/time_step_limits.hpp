@@ -12,6 +12,9 @@
 
 namespace gdesp {
 
+/// Courant numbers that the schemes take unless told otherwise.
+inline constexpr double split_default_cfl = 0.5, verlet_default_cfl = 0.2;
+
 struct FluidStepLimit {
   double dt = 0.0;              ///< s
   const char* bound = "sound";  ///< which limit binds: sound, force, viscosity

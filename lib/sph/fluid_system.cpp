@@ -212,10 +212,15 @@ template <class Exec>
 void FluidSystem<Exec>::enable_coupling() {
   const auto n = static_cast<std::size_t>(slots());
   porosity_.resize_discard(n);
-  exec::parallel_for(exec_, "sph::porosity", slots(), SetOne{porosity_.data()});
   external_.resize_discard(n);
-  external_.fill_bytes(0);
   coupled_ = true;
+  reset_coupling();
+}
+
+template <class Exec>
+void FluidSystem<Exec>::reset_coupling() {
+  exec::parallel_for(exec_, "sph::porosity", slots(), SetOne{porosity_.data()});
+  external_.fill_bytes(0);
 }
 
 template <class Exec>

@@ -57,13 +57,17 @@ class FluidSystem {
   const float* records() const { return record_.data(); }
   const float* wall_records() const { return wall_record_.data(); }
   const FixedPosition* positions() const { return position_.data(); }
-  float* porosity() { return porosity_.data(); }                 ///< per slot; 1 without grains
+  float* porosity() { return porosity_.data(); }                 ///< per slot; coupled runs only
+  const float* porosity() const { return porosity_.data(); }
   Vec3f* external_acceleration() { return external_.data(); }    ///< per slot, m/s2: the reaction of grains
   const float* mass_share() const { return mass_share_.data(); }
   const float* rates() const { return rate_.data(); }            ///< ax ay az dD, 4 each, per cluster
   const std::uint32_t* ids() const { return id_.data(); }
   /// Allocates what coupling needs: porosity (1) and external acceleration (0) by slot.
   void enable_coupling();
+  /// No grains in reach: porosity 1, no reaction.
+  void reset_coupling();
+  bool coupled() const { return coupled_; }
   /// At the start, once porosity is known: the water between grains has the share eps of a particle's mass.
   void thin_by_porosity();
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "simulation/simulation.hpp"
+#include "sph/fluid_system.hpp"
 
 namespace gdesp::test {
 
@@ -48,6 +49,20 @@ inline SimulationInput tank_input(const Vec3d& size, double depth, double dp, in
   p.skin = 0.15 * p.h;
   wall_tank(input.boundary, {}, size, dp, dimensions == 2);
   return input;
+}
+
+/// What the passes wrote, in the order of ids.
+struct Rates { Vec3d acceleration; double dD = 0.0; };
+inline std::vector<Rates> rates_by_id(const sph::FluidSystem<exec::OpenMP>& fluid) {
+  std::vector<Rates> rates(static_cast<std::size_t>(fluid.particles()));
+  for (Index s = 0; s < fluid.slots(); ++s) {
+    const std::uint32_t id = fluid.ids()[s];
+    if (id == no_particle) continue;
+    const float* r = fluid.rates() + 16 * (s / 4) + s % 4;
+    rates[id] = {{static_cast<double>(r[0]), static_cast<double>(r[4]), static_cast<double>(r[8])},
+                 static_cast<double>(r[12])};
+  }
+  return rates;
 }
 
 }  // namespace gdesp::test

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+
+#include "exec/parallel.hpp"
+
+namespace gdesp::exec {
+namespace {
+
+const OpenMP cpu;
+
+struct Value {
+  const float* from;
+  float operator()(Index i) const { return from[i]; }
+};
+struct Add {
+  float operator()(float a, float b) const { return a + b; }
+};
+
+TEST(Reduce, is_the_same_for_any_number_of_threads) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> uniform(-1.0f, 1.0f);
+  std::vector<float> host(100'003);
+  for (float& x : host) x = uniform(random);
+  std::vector<float> sums;
+  for (int threads : {1, 2, 3, 7}) {
+    set_threads(threads);
+    sums.push_back(reduce(cpu, "test", static_cast<Index>(host.size()), 0.0f, Value{host.data()}, Add{}));
+  }
+  for (float sum : sums) EXPECT_EQ(sum, sums.front());
+  EXPECT_NEAR(sums.front(), std::accumulate(host.begin(), host.end(), 0.0), 0.05);
+}
+
+TEST(Reduce, of_nothing_is_the_start) { EXPECT_EQ(reduce(cpu, "test", 0, 5.0f, Value{nullptr}, Add{}), 5.0f); }
+
+TEST(ExclusiveScan, agrees_with_partial_sum) {
+  for (Index n : {0, 1, 17, 4097, 50'000}) {
+    std::vector<Index> in(static_cast<std::size_t>(n)), out(in.size() + 1);
+    for (std::size_t i = 0; i < in.size(); ++i) in[i] = static_cast<Index>(i * 7 % 5);
+    const Index total = exclusive_scan(cpu, "test", in.data(), out.data(), n);
+    Index expected = 0;
+    for (std::size_t i = 0; i < in.size(); ++i) {
+      ASSERT_EQ(out[i], expected);
+      expected += in[i];
+    }
+    EXPECT_EQ(out.back(), expected);
+    EXPECT_EQ(total, expected);
+  }
+}
+
+TEST(SortPairs, is_a_stable_sort_of_the_given_bits) {
+  std::mt19937_64 random(11);
+  for (std::size_t n : {std::size_t{0}, std::size_t{1}, std::size_t{1000}, std::size_t{70'001}}) {
+    std::vector<std::uint64_t> key(n);
+    std::vector<Index> value(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      key[i] = random() & 0x7fff'ffffu;
+      if (i % 3 == 0) key[i] = key[i / 2];
+      value[i] = static_cast<Index>(i);
+    }
+    Array<std::uint64_t, OpenMP> keys, keys_scratch;
+    Array<Index, OpenMP> values, values_scratch;
+    keys.assign(key);
+    values.assign(value);
+    sort_pairs(cpu, "test", keys, values, keys_scratch, values_scratch, static_cast<Index>(n), 31);
+    std::stable_sort(value.begin(), value.end(), [&](Index a, Index b) {
+      return key[static_cast<std::size_t>(a)] < key[static_cast<std::size_t>(b)];
+    });
+    EXPECT_EQ(values.to_host(), value);
+  }
+}
+
+TEST(Lanes, four_i_and_four_j_make_sixteen_pairs) {
+  const float i[4] = {1, 2, 3, 4}, j[4] = {10, 20, 30, 40};
+  float sum[4], largest[4];
+  const Float16 product = HostLanes::load_i(i) * HostLanes::load_j(j);
+  HostLanes::store_sum_i(sum, product);
+  HostLanes::store_max_i(largest, product);
+  for (int k = 0; k < 4; ++k) {
+    EXPECT_EQ(sum[k], 100.0f * i[k]);
+    EXPECT_EQ(largest[k], 40.0f * i[k]);
+  }
+  EXPECT_TRUE(HostLanes::any(product > Float16(159.0f)));
+  EXPECT_FALSE(HostLanes::any(product > Float16(160.0f)));
+}
+
+TEST(Array, counts_its_memory) {
+  const std::size_t before = allocated_bytes();
+  {
+    Array<double, OpenMP> array;
+    array.resize_discard(1000);
+    EXPECT_GE(allocated_bytes(), before + 8000);
+  }
+  EXPECT_EQ(allocated_bytes(), before);
+}
+
+}  // namespace
+}  // namespace gdesp::exec
