@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "run_loop.hpp"
+
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+
+#include "core/version.hpp"
+#include "exec/array.hpp"
+#include "exec/profile.hpp"
+#include "frame_output.hpp"
+#include "run_files.hpp"
+#include "session.hpp"
+
+namespace gdesp::tool {
+namespace {
+
+using nlohmann::ordered_json;
+using Clock = std::chrono::steady_clock;
+constexpr std::int64_t steps_between_diagnostics = 100;
+
+ordered_json frame_record(const FramePaths& paths, const std::string& case_path) {
+  ordered_json record{{"record", "frame"}, {"path", paths.fluid.empty() ? paths.grains : paths.fluid}};
+  if (!paths.fluid.empty()) record["fluid"] = paths.fluid;
+  if (!paths.grains.empty()) record["grains"] = paths.grains;
+  if (!paths.bodies.empty()) record["bodies"] = paths.bodies;
+  record["case"] = case_path;
+  record["t"] = paths.time;
+  record["step"] = paths.step;
+  return record;
+}
+
+ordered_json run_description(const Session& s) {
+  std::string command = "gdesp-run";
+  for (const std::string& argument : s.options.arguments) command += " " + argument;
+  ordered_json overrides = ordered_json::array();
+  for (const Override& o : s.options.overrides) overrides.push_back(o.key + "=" + o.value);
+  return {{"program", "gdesp-run"}, {"version", gdesp::version}, {"commit", gdesp::commit},
+          {"build", std::string(gdesp::compiler) + ", " + gdesp::build_type}, {"command", command},
+          {"case", s.options.case_path}, {"overrides", overrides}, {"device", s.device},
+          {"device_name", s.device_name}, {"threads", s.threads}, {"started", utc_now()},
+          {"t_end", s.times.end}, {"output_interval", s.times.interval}, {"scene", s.summary.json}};
+}
+
+/// One run under way: the simulation, its output, its clock.
+class Run {
+ public:
+  explicit Run(Session session)
+      : session_(std::move(session)), terminal_(cli::stdout_is_terminal()),
+        output_(open_folder(session_), [this](const FramePaths& paths) { frame_written(paths); }),
+        log_(session_.options.run_folder, -1), description_(run_description(session_)) {
+    write_status("running", {});
+  }
+
+  int go() {
+    try {
+      const int code = steps();
+      output_.drain();
+      finish(code);
+      return code;
+    } catch (const Error& problem) {
+      fail(problem.what());
+      throw;
+    }
+  }
+
+ private:
+  static FrameWriter open_folder(const Session& s) {
+    const RunOptions& o = s.options;
+    FrameWriter writer(o.run_folder, s.scene_case.offset, s.scene_case.scene.dp, o.force, o.resume);
+    tidy_run_folder(o.run_folder, o.resume);
+    write_run_case_path(o.run_folder, o.case_path);
+    return writer;
+  }
+
+  Simulation& simulation() { return *session_.simulation; }
+  double wall_seconds() const { return std::chrono::duration<double>(Clock::now() - begun_).count(); }
+  double score() {
+    return static_cast<double>(session_.summary.moving_particles) * simulation().time() / wall_seconds();
+  }
+
+  void frame_written(const FramePaths& paths) {
+    if (!terminal_) cli::write_record(frame_record(paths, session_.options.case_path));
+  }
+
+  int steps() {
+    if (simulation().step_count() == 0) put_out();
+    cli::Progress progress("simulating");
+    const double first = simulation().time(), end = session_.times.end;
+    while (simulation().time() < end) {
+      const double next = session_.times.next(simulation().time());
+      while (simulation().time() < next) {
+        simulation().step(next);
+        output_.check();
+        if (simulation().step_count() % steps_between_diagnostics == 0) note();
+        tell(progress, first);
+        if (cli::interrupted()) break;
+      }
+      if (simulation().time() >= next) put_out();
+      if (cli::interrupted() && simulation().time() < end) return 130;
+    }
+    progress.done();
+    return 0;
+  }
+
+  void put_out() {
+    note();
+    output_.push(frame_of(session_));
+  }
+
+  void note() {
+    latest_ = simulation().diagnostics();
+    log_.add(latest_);
+  }
+
+  void tell(cli::Progress& progress, double first) {
+    const double now = wall_seconds();
+    if (now - told_ < 0.2) return;
+    told_ = now;
+    const double t = simulation().time(), end = session_.times.end;
+    const Diagnostics step = simulation().diagnostics();
+    progress.update((t - first) / (end - first), "t " + number_text(t) + " of " + number_text(end) + " s  dt " +
+                                                     number_text(step.time_step, 2) + " s (" + step.limited_by +
+                                                     ")  score " + number_text(score(), 3));
+  }
+
+  void write_status(const char* status, const std::string& message) {
+    description_["status"] = status;
+    if (!message.empty()) description_["message"] = message;
+    description_["steps"] = simulation().step_count();
+    description_["t"] = simulation().time();
+    description_["wall_seconds"] = wall_seconds();
+    description_["score"] = score();
+    description_["memory"] = exec::peak_allocated_bytes();
+    if (session_.options.profile)
+      for (const auto& row : exec::profile()) description_["profile"][row.name] = {{"seconds", row.seconds}, {"calls", row.calls}};
+    write_run_json(session_.options.run_folder, description_);
+  }
+
+  void finish(int code) {
+    const bool done = code == 0;
+    write_status(done ? "done" : "interrupted", {});
+    const ordered_json record{{"record", done ? "done" : "interrupted"}, {"run", session_.options.run_folder},
+                              {"case", session_.options.case_path}, {"steps", simulation().step_count()},
+                              {"t", simulation().time()}, {"wall_seconds", wall_seconds()},
+                              {"particles", session_.summary.moving_particles}, {"score", score()},
+                              {"device", session_.device}};
+    if (!terminal_) cli::write_record(record);
+    else std::cout << summary_text(done) << std::flush;
+    if (session_.options.profile) tell_profile();
+  }
+
+  std::string summary_text(bool done) {
+    return (done ? "done: " : "interrupted: ") + std::to_string(simulation().step_count()) + " steps to t = " +
+           number_text(simulation().time()) + " s in " + duration_text(wall_seconds()) + " (score " +
+           number_text(score(), 3) + "), " + session_.device_name + "\nframes: " + session_.options.run_folder + "\n";
+  }
+
+  void tell_profile() {
+    const auto rows = exec::profile();
+    for (const auto& row : rows) {
+      char line[120];
+      std::snprintf(line, sizeof line, "%-28s %9.3f s  %5.1f %%  %9ld calls", row.name.c_str(), row.seconds,
+                    100.0 * row.seconds / wall_seconds(), row.calls);
+      cli::info(line);
+    }
+  }
+
+  /// The frames so far reach the disk, the reader downstream hears of the failure; the failure itself matters more
+  /// than trouble on the way.
+  void fail(const std::string& message) {
+    try {
+      output_.drain();
+      write_status("failed", message);
+      if (!terminal_)
+        cli::write_record({{"record", "failed"}, {"reason", message}, {"message", message}, {"t", simulation().time()},
+                           {"step", simulation().step_count()}, {"run", session_.options.run_folder}});
+    } catch (const Error&) {
+    }
+  }
+
+  Session session_;
+  bool terminal_;
+  Clock::time_point begun_ = Clock::now();
+  double told_ = 0.0;
+  Diagnostics latest_;
+  FrameOutput output_;
+  DiagnosticsLog log_;
+  ordered_json description_;
+};
+
+}  // namespace
+
+int run_case(RunOptions options) {
+  Session session = prepare(std::move(options));
+  for (const std::string& line : session.summary.lines) cli::info(line);
+  start(session);
+  return Run(std::move(session)).go();
+}
+
+}  // namespace gdesp::tool

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "session.hpp"
+
+#include "exec/backend.hpp"
+#include "exec/profile.hpp"
+#include "moving_surfaces.hpp"
+
+namespace gdesp::tool {
+namespace {
+
+constexpr double standard_frames = 50.0;
+
+std::string name_of_device(const std::string& device, int threads) {
+  if (device == "cpu") return "cpu, " + std::to_string(threads) + (threads == 1 ? " thread" : " threads");
+  for (const auto& d : exec::cuda_devices())
+    if (device == "cuda:" + std::to_string(d.number)) return device + ", " + d.name;
+  return device;
+}
+
+}  // namespace
+
+Session prepare(RunOptions options) {
+  Session s;
+  s.device = resolve_device(options.device);
+  s.threads = exec::set_threads(options.threads);
+  s.device_name = name_of_device(s.device, s.threads);
+  exec::set_profiling(options.profile);
+  cli::detail("reading " + options.case_path);
+  s.scene_case = read_case(options.case_path, options.overrides);
+  TimeControl& time = s.scene_case.scene.time;
+  if (options.t_end) time.end = *options.t_end;
+  s.times = {time.output_interval > 0.0 ? time.output_interval : time.end / standard_frames, time.end};
+  const ExpectedSpeed expected = expected_speed(s.scene_case);
+  s.input = case_to_input(s.scene_case);
+  s.summary = summarize(s.scene_case.scene, s.input, expected, s.device, s.threads);
+  if (s.summary.moving_particles == 0)
+    throw Error(ErrorKind::input, options.case_path + ": has neither water nor grains; there is nothing to simulate");
+  s.options = std::move(options);
+  return s;
+}
+
+void start(Session& s) {
+  check_memory(s.summary, s.scene_case.scene, s.device);
+  s.simulation = make_simulation(s.input, s.device);
+  s.input = {};
+}
+
+Frame frame_of(Session& s) {
+  Simulation& simulation = *s.simulation;
+  Frame frame;
+  frame.time = simulation.time();
+  frame.step = simulation.step_count();
+  frame.fluid = simulation.fluid();
+  frame.grains = simulation.grains();
+  const auto& bodies = s.scene_case.bodies;
+  if (bodies.empty()) return frame;
+  const auto poses = simulation.bodies();
+  frame.bodies = moving_surfaces(s.scene_case.walls, bodies, poses, frame.time);
+  frame.body_states = body_states(bodies, poses, frame.time);
+  return frame;
+}
+
+}  // namespace gdesp::tool
