@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/body_builder.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+
+#include "core/error.hpp"
+
+namespace gdesp::geometry {
+namespace {
+
+constexpr double forever = 1e5;   // s; a constant velocity is tabulated up to here
+
+bool four_numbers(const std::string& line, double (&v)[4]) {
+  std::size_t at = 0;
+  for (double& value : v) {
+    const auto start = line.find_first_not_of(" \t,;\r", at);
+    if (start == std::string::npos) return false;
+    at = std::min(line.find_first_of(" \t,;\r", start), line.size());
+    const auto r = std::from_chars(line.data() + start + (line[start] == '+'), line.data() + at, value);
+    if (r.ec != std::errc() || r.ptr != line.data() + at || !std::isfinite(value)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+PrescribedMotion read_motion(const std::string& path) {
+  std::ifstream in(path);
+  if (!in) throw Error(ErrorKind::input, path + ": cannot be opened (motion_csv: t,dx,dy,dz)");
+  PrescribedMotion motion;
+  std::string line;
+  for (int number = 1; std::getline(in, line); ++number) {
+    if (line.find_first_not_of(" \t\r") == std::string::npos || line.front() == '#') continue;
+    double v[4];
+    if (!four_numbers(line, v)) {
+      if (motion.time.empty() && number == 1) continue;   // a header
+      throw Error(ErrorKind::input, path + ":" + std::to_string(number) + ": expected t,dx,dy,dz (s, m), found \"" + line.substr(0, 60) + "\"");
+    }
+    if (!motion.time.empty() && v[0] <= motion.time.back()) {
+      throw Error(ErrorKind::input, path + ":" + std::to_string(number) + ": time " + std::to_string(v[0]) + " s does not follow " +
+                                        std::to_string(motion.time.back()) + " s; times must increase");
+    }
+    motion.time.push_back(v[0]);
+    motion.displacement.push_back({v[1], v[2], v[3]});
+  }
+  if (motion.time.empty()) throw Error(ErrorKind::input, path + ": holds no line of t,dx,dy,dz");
+  return motion;
+}
+
+PrescribedMotion constant_motion(const Vec3d& velocity, double start, double stop) {
+  PrescribedMotion motion;
+  if (norm(velocity) == 0.0) {
+    motion.time = {0.0};
+    motion.displacement = {{}};
+    return motion;
+  }
+  const double end = std::min(stop, start + forever);
+  motion.time = {start, std::max(end, start + 1e-12)};
+  motion.displacement = {{}, velocity * (end - start)};
+  return motion;
+}
+
+Body moving_body(const MovingBody& body) {
+  Body out;
+  out.name = body.name;
+  out.kind = BodyKind::prescribed;
+  out.motion = body.motion_csv.empty() ? constant_motion(body.velocity, body.start, body.stop) : read_motion(body.motion_csv);
+  out.motion.remove_at = body.remove_at;
+  return out;
+}
+
+Body prescribed_slide(const Slide& slide) {
+  Body out;
+  out.name = slide.name;
+  out.kind = BodyKind::prescribed;
+  out.motion = read_motion(slide.motion_csv);
+  for (auto& t : out.motion.time) t += slide.release_at;
+  return out;
+}
+
+Body free_body(const std::string& name, const SolidPart& part, double density, const Vec3d& velocity, int dimensions) {
+  MassProperties m = mass_properties(part.mesh);
+  if (!(m.volume > 0.0)) throw Error(ErrorKind::input, part.name + ": encloses no volume");
+  Body out;
+  out.name = name;
+  out.kind = BodyKind::free;
+  out.velocity = velocity;
+  out.centre = m.centre;
+  double per_width = 1.0;
+  if (dimensions == 2) {
+    const Box b = bounds(part.mesh);
+    per_width = 1.0 / (b.upper.y - b.lower.y);
+    out.centre.y = 0.0;
+  }
+  out.mass = density * m.volume * per_width;
+  for (int k = 0; k < 9; ++k) out.inertia[k] = density * m.inertia_per_density[k] * per_width;
+  return out;
+}
+
+}  // namespace gdesp::geometry

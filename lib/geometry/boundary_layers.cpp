@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/boundary_layers.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace gdesp::geometry {
+namespace {
+
+constexpr double least_depth = 0.05;   // dp: a wall particle is never reported on or above the surface
+
+void add(BoundaryTable& out, const Vec3d& p, const Vec3d& normal, double depth, std::int32_t body) {
+  out.position.push_back(p);
+  out.normal.push_back(static_cast<Vec3f>(normal));
+  out.depth.push_back(static_cast<float>(depth));
+  out.body.push_back(body);
+}
+
+/// Coordinates along one axis of a tank: layers before its lower face, points fitted between, layers after its upper face.
+std::vector<double> tank_ticks(int axis, const WallPart& tank, const Lattice& lattice, bool low_closed, bool high_closed) {
+  std::vector<double> ticks;
+  const double lo = tank.tank.lower[axis], hi = tank.tank.upper[axis], dp = lattice.dp;
+  if (lattice.dimensions == 2 && axis == 1) return {0.0};
+  for (int k = boundary_layer_count - 1; k >= 0 && low_closed; --k) ticks.push_back(lo - (k + 0.5) * dp);
+  const int n = std::max(1, static_cast<int>(std::lround((hi - lo) / dp)));
+  for (int i = 0; i < n; ++i) ticks.push_back(lo + (i + 0.5) * (hi - lo) / n);
+  for (int k = 0; k < boundary_layer_count && high_closed; ++k) ticks.push_back(hi + (k + 0.5) * dp);
+  return ticks;
+}
+
+bool inside_other_tank(const SceneParts& parts, const WallPart* own, const Vec3d& p) {
+  for (const auto& w : parts.walls) {
+    if (w.kind != WallPart::Kind::tank || &w == own) continue;
+    bool inside = true;
+    for (int a = 0; a < 3; ++a) inside = inside && p[a] > w.tank.lower[a] && p[a] < w.tank.upper[a];
+    if (inside) return true;
+  }
+  return false;
+}
+
+void add_one_tank(const WallPart& tank, const SceneParts& parts, const Lattice& lattice, BoundaryTable& out) {
+  static const char* const face[3][2] = {{"x-", "x+"}, {"y-", "y+"}, {"bottom", "top"}};
+  std::vector<double> ticks[3];
+  for (int a = 0; a < 3; ++a) ticks[a] = tank_ticks(a, tank, lattice, !is_open(tank, face[a][0]), !is_open(tank, face[a][1]));
+  const Vec3d lo = tank.tank.lower, hi = tank.tank.upper;
+  for (const double x : ticks[0]) {
+    for (const double y : ticks[1]) {
+      for (const double z : ticks[2]) {
+        const Vec3d p{x, y, z};
+        Vec3d inward;
+        for (int a = 0; a < 3; ++a) inward[a] = p[a] < lo[a] ? lo[a] - p[a] : (p[a] > hi[a] ? hi[a] - p[a] : 0.0);
+        const double depth = norm(inward);
+        if (depth == 0.0 || inside_other_tank(parts, &tank, p)) continue;
+        add(out, p, inward * (1.0 / depth), depth, 0);
+      }
+    }
+  }
+}
+
+/// Inside a tank's wall: where its own layers stand.
+bool in_tank_wall(const SceneParts& parts, const Vec3d& p, double dp) {
+  bool any = false;
+  for (const auto& w : parts.walls) {
+    if (w.kind != WallPart::Kind::tank) continue;
+    if (tank_clearance(w, p) > -1e-6 * dp) return false;
+    any = true;
+  }
+  return any;
+}
+
+void add_box_body(const Box& box, std::int32_t number, const Lattice& lattice, BoundaryTable& out) {
+  int n[3];
+  Vec3d step;
+  for (int a = 0; a < 3; ++a) {
+    const double length = box.upper[a] - box.lower[a];
+    const bool flat = lattice.dimensions == 2 && a == 1;
+    n[a] = flat ? 1 : std::max(1, static_cast<int>(std::lround(length / lattice.dp)));
+    step[a] = length / n[a];
+  }
+  const double deepest = boundary_layer_count * lattice.dp;
+  for (int i = 0; i < n[0]; ++i) {
+    for (int j = 0; j < n[1]; ++j) {
+      for (int k = 0; k < n[2]; ++k) {
+        Vec3d p = box.lower + Vec3d{(i + 0.5) * step.x, (j + 0.5) * step.y, (k + 0.5) * step.z};
+        if (lattice.dimensions == 2) p.y = 0.0;
+        double depth = 1e300;
+        Vec3d normal;
+        for (int a = 0; a < 3; ++a) {
+          if (lattice.dimensions == 2 && a == 1) continue;
+          for (int side = -1; side <= 1; side += 2) {
+            const double d = side < 0 ? p[a] - box.lower[a] : box.upper[a] - p[a];
+            if (d >= depth - 1e-12 * lattice.dp) continue;
+            depth = d;
+            normal = {};
+            normal[a] = side;
+          }
+        }
+        if (depth <= deepest) add(out, p, normal, depth, number);
+      }
+    }
+  }
+}
+
+
+/// The closed faces of a tank, normals into the tank.
+TriangleMesh tank_faces(const WallPart& tank) {
+  static const char* const face[6] = {"x-", "x+", "y-", "y+", "bottom", "top"};
+  TriangleMesh box = box_mesh(tank.tank), out;   // box_mesh lists its faces in the same order, two triangles each
+  flip(box);
+  out.vertex = box.vertex;
+  for (int f = 0; f < 6; ++f) {
+    if (is_open(tank, face[f])) continue;
+    out.triangle.push_back(box.triangle[2 * f]);
+    out.triangle.push_back(box.triangle[2 * f + 1]);
+  }
+  return out;
+}
+
+}  // namespace
+
+void add_tank_layers(const SceneParts& parts, const Lattice& lattice, BoundaryTable& out) {
+  for (const auto& w : parts.walls) {
+    if (w.kind == WallPart::Kind::tank) add_one_tank(w, parts, lattice, out);
+  }
+}
+
+void add_band_layers(const std::vector<BandPoint>& band, const SceneParts& parts, const Lattice& lattice, BoundaryTable& out) {
+  for (const auto& b : band) {
+    if (b.distance > 0.0f || -b.distance > boundary_layer_count * lattice.dp) continue;
+    const bool tank_face = b.material >= 2 && parts.walls[static_cast<std::size_t>(b.material) - 2].kind == WallPart::Kind::tank;
+    const Vec3d p = lattice.point(b.at);
+    if (tank_face || in_tank_wall(parts, p, lattice.dp)) continue;
+    add(out, p, static_cast<Vec3d>(b.normal), std::max<double>(-b.distance, least_depth * lattice.dp), 0);
+  }
+}
+
+void add_body_layers(const SolidPart& body, std::int32_t number, const Lattice& lattice, BoundaryTable& out) {
+  if (body.box) return add_box_body(*body.box, number, lattice, out);
+  Box box = bounds(body.mesh);
+  const LatticeColumns columns = lattice_columns(lattice, box);
+  const ColumnIntervals solid = solid_intervals(body.mesh, columns.grid);
+  WallSurfaces surface{body.mesh, std::vector<std::int32_t>(body.mesh.triangle.size(), number)};
+  BandRequest request;
+  request.lattice = lattice;
+  request.columns = columns;
+  request.solid = &solid;
+  for (int a = 0; a < 3; ++a) {
+    request.lower[a] = lattice.dimensions == 2 && a == 1 ? 0 : lattice.first_at_or_above(a, box.lower[a]);
+    request.upper[a] = lattice.dimensions == 2 && a == 1 ? 0 : lattice.last_at_or_below(a, box.upper[a]);
+  }
+  request.half_width = boundary_layer_count;
+  std::size_t added = 0;
+  for (const auto& b : signed_distance_band(surface, request, "", {})) {
+    if (b.distance > 0.0f) continue;
+    add(out, lattice.point(b.at), static_cast<Vec3d>(b.normal), std::max<double>(-b.distance, least_depth * lattice.dp), number);
+    ++added;
+  }
+  if (added == 0) throw Error(ErrorKind::input, body.name + " is thinner than resolution.dp = " + std::to_string(lattice.dp) + " m: no particle fits; refine dp");
+}
+
+WallSurfaces wall_surfaces(const SceneParts& parts) {
+  WallSurfaces walls;
+  walls.mesh = parts.terrain;
+  walls.material.assign(parts.terrain.triangle.size(), 1);
+  for (std::size_t k = 0; k < parts.walls.size(); ++k) {
+    const WallPart& w = parts.walls[k];
+    append(walls.mesh, w.kind == WallPart::Kind::tank ? tank_faces(w) : w.mesh);
+    walls.material.resize(walls.mesh.triangle.size(), 2 + static_cast<std::int32_t>(k));
+  }
+  return walls;
+}
+
+}  // namespace gdesp::geometry

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/case_builder.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "geometry/body_builder.hpp"
+#include "geometry/checksum.hpp"
+#include "geometry/slide_builder.hpp"
+
+namespace gdesp::geometry {
+namespace {
+
+/// Names stages as they begin and keeps their times.
+class Stages {
+ public:
+  Stages(BuildReport& report, const std::function<void(const std::string&)>& on_stage) : report_(report), on_stage_(on_stage) {}
+  ~Stages() { close(); }
+  void begin(const std::string& name) {
+    close();
+    name_ = name;
+    start_ = std::chrono::steady_clock::now();
+    if (on_stage_) on_stage_(name);
+  }
+
+ private:
+  void close() {
+    if (!name_.empty()) report_.seconds.push_back({name_, std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count()});
+    name_.clear();
+  }
+  BuildReport& report_;
+  const std::function<void(const std::string&)>& on_stage_;
+  std::string name_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+FillSpace fill_space(const Layout& layout, ColumnIntervals& walls) {
+  FillSpace space;
+  space.lattice = layout.lattice;
+  space.columns = lattice_columns(layout.lattice, layout.domain);
+  walls = static_solid(layout.parts, space.columns.grid, &space.ground);
+  space.solid = unite(walls, body_solid(layout.parts, layout.scene, space.columns.grid));
+  space.domain = layout.domain;
+  return space;
+}
+
+std::vector<BandPoint> wall_band(const Layout& layout, const FillSpace& space, const ColumnIntervals& walls, const std::string& vdb_path) {
+  BandRequest request;
+  request.lattice = layout.lattice;
+  request.columns = space.columns;
+  request.solid = &walls;
+  for (int a = 0; a < 3; ++a) {
+    const bool flat = layout.scene.dimensions == 2 && a == 1;
+    request.lower[a] = flat ? 0 : layout.lattice.first_at_or_above(a, layout.domain.lower[a]);
+    request.upper[a] = flat ? 0 : layout.lattice.last_at_or_below(a, layout.domain.upper[a]);
+  }
+  request.half_width = boundary_layer_count;
+  return signed_distance_band(wall_surfaces(layout.parts), request, vdb_path, layout.offset);
+}
+
+std::vector<PorousRegion> porous_regions(const Layout& layout, const FillSpace& space) {
+  std::vector<PorousRegion> out;
+  for (std::size_t k = 0; k < layout.parts.slides.size(); ++k) {
+    if (layout.scene.slides[k].kind != "granular") continue;
+    const SolidPart& part = layout.parts.slides[k];
+    PorousRegion region;
+    region.box = part.box;
+    region.bounds = bounds(part.mesh);
+    region.porosity = layout.scene.slides[k].porosity;
+    if (!part.box) region.inside = solid_intervals(part.mesh, space.columns.grid);
+    out.push_back(std::move(region));
+  }
+  return out;
+}
+
+void fill_fluid(const Layout& layout, const FillSpace& space, Case& out, BuildReport& report) {
+  double level = -1e300;
+  for (std::size_t k = 0; k < layout.scene.fluid.fill.size(); ++k) {
+    FillReport fill;
+    add_fill(out.fluid.position, fill_water(layout.scene.fluid.fill[k], layout.parts.fluid[k], space, layout.parts, "fluid.fill." + std::to_string(k), fill),
+             layout.lattice.dp);
+    level = std::max(level, fill.level);
+    if (fill.open_edge > 0.0) {
+      char text[256];
+      std::snprintf(text, sizeof text,
+                    "fluid.fill.%zu: along %.4g m no wall holds the water (edge of the polygon, the domain or the terrain; e.g. at x = %.6g m, "
+                    "y = %.6g m): it will run out there",
+                    k, fill.open_edge, fill.open_edge_at.x + layout.offset.x, fill.open_edge_at.y + layout.offset.y);
+      report.notes.warnings.push_back(text);
+    }
+    report.fills.push_back(fill);
+  }
+  thin_to_pores(out.fluid.position, porous_regions(layout, space), space);
+  out.still_water_level = out.fluid.position.empty() ? layout.domain.lower.z : level;
+}
+
+void add_body(const Layout& layout, const SolidPart& part, Body body, Case& out) {
+  out.bodies.push_back(std::move(body));
+  const auto number = static_cast<std::int32_t>(out.bodies.size());
+  add_body_layers(part, number, layout.lattice, out.boundary);
+  const auto base = static_cast<std::int32_t>(out.walls.vertex.size());
+  out.walls.vertex.insert(out.walls.vertex.end(), part.mesh.vertex.begin(), part.mesh.vertex.end());
+  for (const auto& t : part.mesh.triangle) {
+    out.walls.triangle.push_back({t.x + base, t.y + base, t.z + base});
+    out.walls.body.push_back(number);
+  }
+}
+
+void add_walls(const Layout& layout, Case& out) {
+  TriangleMesh walls = wall_surfaces(layout.parts).mesh;
+  out.walls.vertex = std::move(walls.vertex);
+  out.walls.triangle = std::move(walls.triangle);
+  out.walls.body.assign(out.walls.triangle.size(), 0);
+}
+
+SlideReport add_solid_slide(const Layout& layout, std::size_t k, Case& out, Notes& notes) {
+  const Slide& slide = layout.scene.slides[k];
+  const SolidPart& part = layout.parts.slides[k];
+  SlideReport report;
+  report.name = slide.name;
+  report.kind = slide.kind;
+  report.volume = free_volume(layout, part);
+  const double whole = signed_volume(part.mesh) / (layout.scene.dimensions == 2 ? extent(bounds(part.mesh)).y : 1.0);
+  report.mass = slide.density * whole;
+  if (report.volume < 0.98 * whole) {
+    notes.warnings.push_back("slide \"" + slide.name + "\": " + std::to_string(100.0 * (1.0 - report.volume / whole)) +
+                             " % of its volume lies inside the terrain or a wall");
+  }
+  Body body = slide.kind == "prescribed" ? prescribed_slide(slide)
+                                         : free_body(slide.name, part, slide.density, slide.velocity, layout.scene.dimensions);
+  add_body(layout, part, std::move(body), out);
+  return report;
+}
+
+void add_bodies_and_slides(const Layout& layout, Case& out, BuildReport& report, BuildScope scope) {
+  for (std::size_t k = 0; k < layout.parts.moving.size(); ++k) add_body(layout, layout.parts.moving[k], moving_body(layout.scene.moving[k]), out);
+  for (std::size_t k = 0; k < layout.parts.slides.size(); ++k) {
+    const Slide& slide = layout.scene.slides[k];
+    if (slide.kind != "granular") {
+      report.slides.push_back(add_solid_slide(layout, k, out, report.notes));
+    } else if (scope == BuildScope::everything) {
+      report.slides.push_back(add_granular_slide(layout, k, out.grains, report.notes));
+    } else {
+      SlideReport only_volume;
+      only_volume.name = slide.name;
+      only_volume.kind = slide.kind;
+      only_volume.volume = free_volume(layout, layout.parts.slides[k]);
+      report.slides.push_back(only_volume);
+    }
+  }
+  for (std::size_t k = 0; k < layout.parts.floating.size(); ++k) {
+    const FloatingBody& f = layout.scene.floating[k];
+    add_body(layout, layout.parts.floating[k], free_body(f.name, layout.parts.floating[k], f.density, f.velocity, layout.scene.dimensions), out);
+  }
+}
+
+/// The domain never cuts a particle off: it grows where layers or grains reach further.
+void grow_domain(Case& out, double dp) {
+  Box box = out.domain;
+  for (const auto* list : {&out.fluid.position, &out.boundary.position, &out.grains.position}) {
+    for (const auto& p : *list) extend(box, p);
+  }
+  for (int a = 0; a < 3; ++a) {
+    if (box.lower[a] < out.domain.lower[a]) out.domain.lower[a] = box.lower[a] - 0.5 * dp;
+    if (box.upper[a] > out.domain.upper[a]) out.domain.upper[a] = box.upper[a] + 0.5 * dp;
+  }
+}
+
+}  // namespace
+
+Case build_case(const Scene& scene, BuildReport& report, const std::string& vdb_path,
+                const std::function<void(const std::string&)>& on_stage, BuildScope scope) {
+  Stages stages(report, on_stage);
+  Case out;
+  stages.begin("reading and checking geometry");
+  const Layout layout = lay_out(scene, report.notes);
+  out.scene = scene;
+  out.offset = layout.offset;
+  out.domain = layout.domain;
+  for (const auto& f : layout.parts.files) out.sources.push_back({f, sha256_of_file(f)});
+  stages.begin("finding what is solid");
+  ColumnIntervals walls;
+  const FillSpace space = fill_space(layout, walls);
+  stages.begin("filling water");
+  fill_fluid(layout, space, out, report);
+  stages.begin("placing walls");
+  const std::vector<BandPoint> band = wall_band(layout, space, walls, vdb_path);
+  report.band_voxels = band.size();
+  add_tank_layers(layout.parts, layout.lattice, out.boundary);
+  add_band_layers(band, layout.parts, layout.lattice, out.boundary);
+  add_walls(layout, out);
+  stages.begin("placing bodies and slides");
+  add_bodies_and_slides(layout, out, report, scope);
+  const Box ground = bounds(layout.parts.terrain), all = bounds(layout.parts);
+  out.terrain_top = is_empty(ground) ? (is_empty(all) ? 0.0 : all.upper.z) : ground.upper.z;
+  grow_domain(out, scene.dp);
+  return out;
+}
+
+}  // namespace gdesp::geometry

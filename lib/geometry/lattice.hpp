@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The cubic lattice on which fluid and wall particles are placed: point (i, j, k) is the centre of a cell of
+// edge dp. In two dimensions j is always 0 and y is 0.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "core/vec3.hpp"
+
+namespace gdesp::geometry {
+
+using Index3 = Vec3<std::int32_t>;
+
+struct Lattice {
+  Vec3d origin;        ///< m, lower corner of cell (0, 0, 0)
+  double dp = 1.0;     ///< m
+  int dimensions = 3;
+
+  double coordinate(int axis, std::int32_t i) const {
+    return dimensions == 2 && axis == 1 ? 0.0 : origin[axis] + (i + 0.5) * dp;
+  }
+  Vec3d point(const Index3& i) const { return {coordinate(0, i.x), coordinate(1, i.y), coordinate(2, i.z)}; }
+  /// Index of the first cell centre at or above c.
+  std::int32_t first_at_or_above(int axis, double c) const {
+    return static_cast<std::int32_t>(std::ceil((c - origin[axis]) / dp - 0.5 - 1e-9));
+  }
+  /// Index of the last cell centre at or below c.
+  std::int32_t last_at_or_below(int axis, double c) const {
+    return static_cast<std::int32_t>(std::floor((c - origin[axis]) / dp - 0.5 + 1e-9));
+  }
+};
+
+}  // namespace gdesp::geometry

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// gmsh sets OpenMP's thread count to 1, throws std::string, does not complain about garbage, and lets OpenCASCADE
+// write to stdout: all of that is kept inside GmshSession.
+#include <fcntl.h>
+#include <gmsh.h>
+#include <omp.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <map>
+#include <unordered_map>
+
+#include "core/error.hpp"
+#include "geometry/mesh_reader.hpp"
+
+namespace gdesp::geometry {
+namespace {
+
+class GmshSession {
+ public:
+  GmshSession() : threads_(omp_get_max_threads()) {
+    std::fflush(stdout);
+    stdout_ = ::dup(1);
+    const int nowhere = ::open("/dev/null", O_WRONLY);
+    if (nowhere >= 0) {
+      ::dup2(nowhere, 1);
+      ::close(nowhere);
+    }
+    gmsh::initialize(0, nullptr, false);
+    gmsh::option::setNumber("General.Terminal", 0);
+    gmsh::option::setNumber("General.AbortOnError", 2);
+    gmsh::option::setString("Geometry.OCCTargetUnit", "M");
+    gmsh::logger::start();
+  }
+  ~GmshSession() {
+    try {
+      gmsh::finalize();
+    } catch (...) {
+    }
+    std::fflush(stdout);
+    if (stdout_ >= 0) {
+      ::dup2(stdout_, 1);
+      ::close(stdout_);
+    }
+    omp_set_num_threads(threads_);
+  }
+  GmshSession(const GmshSession&) = delete;
+  GmshSession& operator=(const GmshSession&) = delete;
+
+ private:
+  int threads_, stdout_;
+};
+
+/// First "Error:" line of gmsh's log, or "".
+std::string first_error() {
+  std::vector<std::string> log;
+  gmsh::logger::get(log);
+  for (const auto& line : log) {
+    if (line.rfind("Error", 0) == 0) return line;
+  }
+  return "";
+}
+
+class NodeNumbers {
+ public:
+  explicit NodeNumbers(TriangleMesh& mesh) : mesh_(mesh) {
+    std::vector<std::size_t> tags;
+    std::vector<double> coordinates, ignored;
+    gmsh::model::mesh::getNodes(tags, coordinates, ignored, -1, -1, false, false);
+    for (std::size_t k = 0; k < tags.size(); ++k) {
+      all_[tags[k]] = {coordinates[3 * k], coordinates[3 * k + 1], coordinates[3 * k + 2]};
+    }
+  }
+  std::int32_t operator()(std::size_t tag) {
+    const auto [at, fresh] = used_.try_emplace(tag, static_cast<std::int32_t>(mesh_.vertex.size()));
+    if (fresh) {
+      const auto found = all_.find(tag);
+      if (found == all_.end()) throw std::string("an element names node " + std::to_string(tag) + ", which is missing");
+      mesh_.vertex.push_back(found->second);
+    }
+    return at->second;
+  }
+
+ private:
+  TriangleMesh& mesh_;
+  std::unordered_map<std::size_t, Vec3d> all_;
+  std::unordered_map<std::size_t, std::int32_t> used_;
+};
+
+void add_polygon(TriangleMesh& mesh, NodeNumbers& number, const std::size_t* corner, int corners) {
+  const std::int32_t a = number(corner[0]);
+  for (int k = 2; k < corners; ++k) mesh.triangle.push_back({a, number(corner[k - 1]), number(corner[k])});
+}
+
+/// Faces that belong to one tetrahedron only.
+void add_hull_of_tetrahedra(TriangleMesh& mesh, NodeNumbers& number) {
+  std::vector<std::size_t> tags, nodes;
+  gmsh::model::mesh::getElementsByType(4, tags, nodes);
+  static const int face[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  std::map<std::array<std::size_t, 3>, std::pair<int, std::array<std::size_t, 3>>> seen;
+  for (std::size_t t = 0; t < tags.size(); ++t) {
+    for (const auto& f : face) {
+      const std::array<std::size_t, 3> corner = {nodes[4 * t + f[0]], nodes[4 * t + f[1]], nodes[4 * t + f[2]]};
+      auto key = corner;
+      std::sort(key.begin(), key.end());
+      auto& entry = seen[key];
+      ++entry.first;
+      entry.second = corner;
+    }
+  }
+  for (const auto& [key, entry] : seen) {
+    if (entry.first == 1) add_polygon(mesh, number, entry.second.data(), 3);
+  }
+}
+
+TriangleMesh collect(const std::string& path) {
+  TriangleMesh mesh;
+  NodeNumbers number(mesh);
+  std::vector<int> types;
+  gmsh::model::mesh::getElementTypes(types);
+  bool tetrahedra = false;
+  for (const int type : types) {
+    std::string name;
+    int dimension = 0, order = 0, nodes_each = 0, corners = 0;
+    std::vector<double> ignored;
+    gmsh::model::mesh::getElementProperties(type, name, dimension, order, nodes_each, ignored, corners);
+    tetrahedra = tetrahedra || type == 4;
+    if (dimension != 2 || corners < 3) continue;
+    std::vector<std::size_t> tags, nodes;
+    gmsh::model::mesh::getElementsByType(type, tags, nodes);
+    for (std::size_t e = 0; e < tags.size(); ++e) add_polygon(mesh, number, &nodes[e * nodes_each], corners);
+  }
+  if (mesh.empty() && tetrahedra) add_hull_of_tetrahedra(mesh, number);
+  if (mesh.empty()) throw Error(ErrorKind::input, path + ": gmsh found no surface in it");
+  return mesh;
+}
+
+bool has_elements() {
+  std::vector<int> types;
+  gmsh::model::mesh::getElementTypes(types, 2);
+  std::vector<int> solid;
+  gmsh::model::mesh::getElementTypes(solid, 3);
+  return !types.empty() || !solid.empty();
+}
+
+}  // namespace
+
+TriangleMesh read_mesh_gmsh(const std::string& path, double mesh_size) {
+  const GmshSession session;
+  try {
+    gmsh::open(path);
+    const std::string error = first_error();
+    if (!error.empty()) throw Error(ErrorKind::input, path + ": gmsh says: " + error);
+    if (!has_elements()) {
+      gmsh::vectorpair entities;
+      gmsh::model::getEntities(entities, 2);
+      if (entities.empty()) throw Error(ErrorKind::input, path + ": gmsh found no surface in it");
+      if (mesh_size <= 0.0) {
+        throw Error(ErrorKind::input, path + ": a GEO or STEP file has to be meshed; give mesh_size (m)");
+      }
+      gmsh::option::setNumber("Mesh.MeshSizeMax", mesh_size);
+      gmsh::option::setNumber("Mesh.MeshSizeMin", 0.1 * mesh_size);
+      gmsh::model::mesh::generate(2);
+    }
+    return collect(path);
+  } catch (const std::string& why) {
+    throw Error(ErrorKind::input, path + ": gmsh says: " + why);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& e) {
+    throw Error(ErrorKind::input, path + ": gmsh says: " + e.what());
+  }
+}
+
+}  // namespace gdesp::geometry

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/slide_builder.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "geometry/sphere_packing.hpp"
+
+namespace gdesp::geometry {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+Box grown(Box box, double by) {
+  box.lower -= Vec3d{by, by, by};
+  box.upper += Vec3d{by, by, by};
+  return box;
+}
+
+/// Everything that bounds the grains: the shape from inside, and the walls and bodies around it.
+TriangleMesh bounding_surfaces(const Layout& layout, const SolidPart& shape, double reach) {
+  const Box near = grown(bounds(shape.mesh), reach);
+  TriangleMesh out = shape.mesh;
+  flip(out);
+  append(out, crop(wall_surfaces(layout.parts).mesh, near));
+  for (const auto* list : {&layout.parts.moving, &layout.parts.floating}) {
+    for (const auto& b : *list) append(out, crop(b.mesh, near));
+  }
+  return out;
+}
+
+std::vector<bool> in_space(const Layout& layout, const SolidPart& shape, const std::vector<Vec3d>& points) {
+  std::vector<bool> in(points.size());
+  const std::vector<int> inside = windings(shape.mesh, points);
+  const std::vector<int> below = windings(layout.parts.terrain, points);
+  for (std::size_t k = 0; k < points.size(); ++k) in[k] = inside[k] > 0 && below[k] <= 0;
+  bool any_tank = false;
+  std::vector<bool> in_tank(points.size(), false);
+  for (const auto& w : layout.parts.walls) {
+    if (w.kind == WallPart::Kind::tank) {
+      any_tank = true;
+      for (std::size_t k = 0; k < points.size(); ++k) in_tank[k] = in_tank[k] || tank_clearance(w, points[k]) > 0.0;
+      continue;
+    }
+    const std::vector<int> solid = windings(w.mesh, points);
+    for (std::size_t k = 0; k < points.size(); ++k) in[k] = in[k] && solid[k] <= 0;
+  }
+  for (const auto* list : {&layout.parts.moving, &layout.parts.floating}) {
+    for (const auto& b : *list) {
+      const std::vector<int> solid = windings(b.mesh, points);
+      for (std::size_t k = 0; k < points.size(); ++k) in[k] = in[k] && solid[k] <= 0;
+    }
+  }
+  for (std::size_t k = 0; k < points.size(); ++k) in[k] = in[k] && (!any_tank || in_tank[k]);
+  return in;
+}
+
+PackingRequest request_of(const Layout& layout, std::size_t index) {
+  const Slide& slide = layout.scene.slides[index];
+  const SolidPart& shape = layout.parts.slides[index];
+  double largest = slide.diameter + 3.0 * slide.diameter_deviation;
+  for (const auto& c : slide.sieve) largest = std::max(largest, c.diameter);
+  PackingRequest r;
+  r.space = [&layout, &shape](const ColumnGrid& columns) {
+    const ColumnIntervals inside = shape.box ? solid_intervals(box_mesh(*shape.box), columns) : solid_intervals(shape.mesh, columns);
+    return subtract(subtract(inside, static_solid(layout.parts, columns)), body_solid(layout.parts, layout.scene, columns));
+  };
+  r.contains = [&layout, &shape](const std::vector<Vec3d>& points) { return in_space(layout, shape, points); };
+  r.walls = bounding_surfaces(layout, shape, 2.0 * largest);
+  r.box = bounds(shape.mesh);
+  r.diameter = slide.diameter;
+  r.deviation = slide.diameter_deviation;
+  r.sieve = slide.sieve;
+  r.porosity = slide.porosity;
+  r.seed = slide.seed;
+  r.dimensions = layout.scene.dimensions;
+  return r;
+}
+
+void warn_of_packing(const Packing& packing, const Slide& slide, Notes& notes) {
+  const std::string name = "slide \"" + slide.name + "\": ";
+  if (std::abs(packing.porosity - slide.porosity) > 0.01) {
+    notes.warnings.push_back(name + "porosity " + std::to_string(packing.porosity) + " reached where " + std::to_string(slide.porosity) +
+                             " was asked: the body is too thin for the grains, or the porosity too low for a random packing");
+  }
+  if (packing.left_out > 0) {
+    notes.warnings.push_back(name + std::to_string(packing.left_out) + " grains found no room without overlap and were left out");
+  }
+}
+
+}  // namespace
+
+SlideReport add_granular_slide(const Layout& layout, std::size_t index, GrainTable& grains, Notes& notes) {
+  const auto start = std::chrono::steady_clock::now();
+  const Slide& slide = layout.scene.slides[index];
+  const Packing packing = pack_spheres(request_of(layout, index));
+  SlideReport report;
+  report.name = slide.name;
+  report.kind = slide.kind;
+  report.grains = packing.position.size();
+  report.volume = packing.volume;
+  report.porosity = packing.porosity;
+  report.largest_overlap = packing.largest_overlap;
+  for (std::size_t k = 0; k < packing.position.size(); ++k) {
+    const double d = packing.diameter[k];
+    report.mass += slide.density * (layout.scene.dimensions == 2 ? pi * d * d / 4.0 : pi * d * d * d / 6.0);
+    grains.position.push_back(packing.position[k]);
+    grains.diameter.push_back(packing.diameter[k]);
+    grains.density.push_back(static_cast<float>(slide.density));
+    grains.velocity.push_back(static_cast<Vec3f>(slide.velocity));
+    grains.group.push_back(static_cast<std::int32_t>(index));
+  }
+  warn_of_packing(packing, slide, notes);
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return report;
+}
+
+double free_volume(const Layout& layout, const SolidPart& body) {
+  const Box box = bounds(body.mesh);
+  const Vec3d size = extent(box);
+  ColumnGrid columns = covering_columns(box, std::max(size.x, layout.scene.dimensions == 2 ? 0.0 : size.y) / 300.0);
+  if (layout.scene.dimensions == 2) columns.y0 = 0.0, columns.ny = 1;
+  const ColumnIntervals inside = subtract(solid_intervals(body.mesh, columns), static_solid(layout.parts, columns));
+  double sum = 0.0;
+  for (const auto& i : inside.interval) sum += i.upper - i.lower;
+  return sum * columns.spacing * (layout.scene.dimensions == 2 ? 1.0 : columns.spacing);
+}
+
+}  // namespace gdesp::geometry

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A granular slide: its space, its packing, its table.
+#pragma once
+
+#include "geometry/case_builder.hpp"
+
+namespace gdesp::geometry {
+
+/// Packs slide `index` of the layout and appends its grains. Warnings go to `notes`.
+SlideReport add_granular_slide(const Layout& layout, std::size_t index, GrainTable& grains, Notes& notes);
+
+/// Volume (m3, m2 in 2D) of a body outside the solids at rest, on columns of about a hundredth of its size.
+double free_volume(const Layout& layout, const SolidPart& body);
+
+}  // namespace gdesp::geometry

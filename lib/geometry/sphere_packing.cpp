@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/sphere_packing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/error.hpp"
+#include "geometry/packing_relaxation.hpp"
+#include "geometry/random.hpp"
+#include "geometry/triangle_tree.hpp"
+
+namespace gdesp::geometry {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+double grain_volume(double d, int dimensions) { return dimensions == 2 ? pi * d * d / 4.0 : pi * d * d * d / 6.0; }
+
+double space_volume(const PackingRequest& r, double spacing) {
+  ColumnGrid grid = covering_columns(r.box, spacing);
+  if (r.dimensions == 2) grid.y0 = 0.0, grid.ny = 1;
+  const ColumnIntervals space = r.space(grid);
+  double sum = 0.0;
+  for (const auto& i : space.interval) sum += i.upper - i.lower;
+  return sum * spacing * (r.dimensions == 2 ? 1.0 : spacing);
+}
+
+/// Diameters that together hold the solid's share of the volume, in random order.
+std::vector<float> draw_diameters(const PackingRequest& r, double solid_volume, Random& random) {
+  std::vector<float> out;
+  if (!r.sieve.empty()) {
+    double shares = 0.0;
+    for (const auto& c : r.sieve) shares += c.mass_share;
+    for (const auto& c : r.sieve) {
+      const double n = solid_volume * c.mass_share / shares / grain_volume(c.diameter, r.dimensions);
+      out.insert(out.end(), static_cast<std::size_t>(std::llround(n)), static_cast<float>(c.diameter));
+    }
+  } else if (r.deviation <= 0.0) {
+    out.assign(static_cast<std::size_t>(std::llround(solid_volume / grain_volume(r.diameter, r.dimensions))), static_cast<float>(r.diameter));
+  } else {
+    for (double filled = 0.0; filled < solid_volume;) {
+      const double d = r.diameter + r.deviation * std::clamp(random.normal(), -3.0, 3.0);
+      const double v = grain_volume(d, r.dimensions);
+      if (filled + 0.5 * v > solid_volume) break;
+      filled += v;
+      out.push_back(static_cast<float>(d));
+    }
+  }
+  for (std::size_t k = out.size(); k > 1; --k) std::swap(out[k - 1], out[random.below(k)]);
+  return out;
+}
+
+/// Points of a cubic lattice of the given spacing inside the space and at least `inset` from every wall.
+std::vector<Vec3d> lattice_sites(const PackingRequest& r, const TriangleTree& walls, double spacing, double inset) {
+  ColumnGrid grid = covering_columns(r.box, spacing);
+  if (r.dimensions == 2) grid.y0 = 0.0, grid.ny = 1;
+  const ColumnIntervals space = r.space(grid);
+  std::vector<Vec3d> sites;
+  for (int i = 0; i < grid.nx; ++i) {
+    for (int j = 0; j < grid.ny; ++j) {
+      const std::size_t c = grid.index(i, j);
+      for (std::size_t k = space.first[c]; k < space.first[c + 1]; ++k) {
+        const double low = space.interval[k].lower, length = space.interval[k].upper - low;
+        const int n = std::max(1, static_cast<int>(std::lround(length / spacing)));
+        if (length < inset) continue;
+        for (int m = 0; m < n; ++m) {
+          const Vec3d p{grid.x(i), grid.y(j), low + (m + 0.5) * length / n};
+          if (walls.nearest(p, inset).triangle < 0) sites.push_back(p);
+        }
+      }
+    }
+  }
+  return sites;
+}
+
+/// At least `wanted` sites, as evenly spread as they come; fewer only when the space is too tight.
+std::vector<Vec3d> enough_sites(const PackingRequest& r, const TriangleTree& walls, double volume, std::size_t wanted, double inset) {
+  double spacing = std::pow(volume / static_cast<double>(wanted), 1.0 / r.dimensions);
+  std::vector<Vec3d> best;
+  for (int attempt = 0; attempt < 12; ++attempt) {
+    std::vector<Vec3d> sites = lattice_sites(r, walls, spacing, inset);
+    if (sites.size() > best.size()) best = sites;
+    if (sites.size() >= wanted) return sites;
+    const double ratio = std::max(static_cast<double>(sites.size()), 0.2 * static_cast<double>(wanted)) / static_cast<double>(wanted);
+    spacing *= std::min(0.995, std::pow(ratio, 1.0 / r.dimensions));
+  }
+  return best;
+}
+
+void keep_random(std::vector<Vec3d>& sites, std::size_t wanted, Random& random) {
+  std::vector<std::size_t> order(sites.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  for (std::size_t k = 0; k < wanted; ++k) std::swap(order[k], order[k + random.below(order.size() - k)]);
+  order.resize(wanted);
+  std::sort(order.begin(), order.end());   // keeps neighbours near each other in memory
+  std::vector<Vec3d> kept;
+  kept.reserve(wanted);
+  for (const std::size_t k : order) kept.push_back(sites[k]);
+  sites = std::move(kept);
+}
+
+void jitter(std::vector<Vec3d>& sites, const TriangleTree& walls, double reach, double inset, int dimensions, Random& random) {
+  for (auto& p : sites) {
+    const Vec3d by{random.signed_unit() * reach, dimensions == 2 ? 0.0 : random.signed_unit() * reach, random.signed_unit() * reach};
+    if (walls.nearest(p, inset + norm(by)).triangle < 0) p += by;
+  }
+}
+
+}  // namespace
+
+Packing pack_spheres(const PackingRequest& r) {
+  Random random(r.seed);
+  Packing out;
+  double mean = r.diameter, smallest = r.diameter - 3.0 * r.deviation, largest = r.diameter + 3.0 * r.deviation;
+  if (!r.sieve.empty()) {
+    smallest = largest = mean = r.sieve.front().diameter;
+    for (const auto& c : r.sieve) smallest = std::min(smallest, c.diameter), largest = std::max(largest, c.diameter);
+  }
+  const Vec3d size = extent(r.box);
+  out.volume = space_volume(r, std::max(std::min(0.5 * mean, std::min(size.x, size.z) / 100.0), std::max(size.x, size.y) / 3000.0));
+  std::vector<float> diameters = draw_diameters(r, out.volume * (1.0 - r.porosity), random);
+  const TriangleTree walls(r.walls);
+  const double inset = 0.4 * smallest;
+  std::vector<Vec3d> sites;
+  if (!diameters.empty()) sites = enough_sites(r, walls, out.volume, diameters.size(), inset);
+  if (sites.empty()) {
+    throw Error(ErrorKind::input, "no grain of diameter " + std::to_string(mean) + " m fits a slide of " + std::to_string(out.volume) + " m3");
+  }
+  const std::size_t wanted = diameters.size();
+  if (sites.size() > wanted) keep_random(sites, wanted, random);
+  diameters.resize(sites.size());
+  jitter(sites, walls, 0.25 * smallest, inset, r.dimensions, random);
+  PackingState state{std::move(sites), std::move(diameters), r.dimensions};
+  out.iterations = relax_overlaps(state, walls, largest);
+  drop_misplaced(state, walls, r.contains, largest);
+  out.left_out = wanted - state.position.size();
+  out.largest_overlap = largest_overlap(state, walls, largest);
+  double solid = 0.0;
+  for (const float d : state.diameter) solid += grain_volume(d, r.dimensions);
+  out.porosity = 1.0 - solid / out.volume;
+  out.position = std::move(state.position);
+  out.diameter = std::move(state.diameter);
+  if (out.position.empty()) {
+    throw Error(ErrorKind::input, "no grain of diameter " + std::to_string(mean) + " m fits a slide of " + std::to_string(out.volume) + " m3");
+  }
+  return out;
+}
+
+}  // namespace gdesp::geometry
