@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Records between tools: one JSON object a line.
+#include <poll.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -59,8 +60,12 @@ void finish_stdout() {
   std::cout.flush();
   std::fflush(stdout);
   if (std::cout.good() && !std::ferror(stdout)) return;
-  if (errno == EPIPE || errno == 0) throw ClosedPipe{};
-  throw Error(ErrorKind::resource, std::string("standard output cannot be written: ") + std::strerror(errno));
+  // The failure may lie back, and errno with it: ask the pipe itself whether its reader has gone.
+  const int why = errno;
+  pollfd pipe{STDOUT_FILENO, POLLOUT, 0};
+  if (why == EPIPE || (::poll(&pipe, 1, 0) == 1 && (pipe.revents & POLLERR) != 0)) throw ClosedPipe{};
+  throw Error(ErrorKind::resource,
+              "standard output cannot be written" + (why == 0 ? std::string() : std::string(": ") + std::strerror(why)));
 }
 
 }  // namespace terminal
