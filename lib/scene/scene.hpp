@@ -131,13 +131,13 @@ struct Coupling {
 /// `paper` and `accurate` set these; a key of its own overrides its preset's value.
 struct Numerics {
   std::string preset = "accurate";
-  double smoothing_ratio = 1.3;           ///< h / dp
+  double smoothing_ratio = 1.5;           ///< h / dp; `paper`: 1.3
   double sound_speed = 0.0;               ///< m/s; 0: 10 x the largest expected speed
   double expected_speed = 0.0;            ///< m/s; 0: estimated from the scene
   std::string time_scheme = "split";      ///< "split" (position Verlet, two light passes) | "verlet" (paper A.1-A.3)
   std::string walls = "extrapolated";     ///< "extrapolated" (Adami et al. 2012) | "dynamic"
   std::string viscosity = "artificial";   ///< "artificial" | "morris" | "none"
-  double artificial_viscosity = 0.02;     ///< alpha
+  double artificial_viscosity = 0.05;     ///< alpha
   double density_diffusion = 0.1;         ///< delta; 0: none
   double shifting = 0.0;                  ///< 0: none
   double cfl = 0.0;                       ///< 0: the scheme's own default

@@ -152,7 +152,7 @@ void describe_numerics(V& v, Scene& scene) {
   v.choice({"preset", "", "sets the options below; a key of its own overrides its preset's value"}, n.preset,
            preset_names());
   if (v.reads()) apply_preset(n.preset, scene);
-  v.number({"smoothing_ratio", "1", "smoothing length over particle spacing, h / dp"}, n.smoothing_ratio,
+  v.number({"smoothing_ratio", "1", "smoothing length over particle spacing, h / dp; preset paper: 1.3"}, n.smoothing_ratio,
            Range{0.5, 4.0, false});
   v.number({"sound_speed", "m/s", "of the weakly compressible fluid; 0: 10 x the largest expected speed"},
            n.sound_speed, not_negative);
@@ -251,6 +251,7 @@ bool apply_preset(const std::string& preset, Scene& scene) {
   n.time_scheme = "verlet";
   n.walls = "dynamic";
   n.viscosity = "morris";
+  n.smoothing_ratio = 1.3;
   n.artificial_viscosity = 0.0;
   n.density_diffusion = 0.0;
   n.multirate = false;

@@ -97,10 +97,25 @@ sph::FluidParameters fluid_parameters(const Case& c) {
 CouplingParameters coupling_parameters(const Scene& s) {
   CouplingParameters p;
   p.enabled = s.coupling.enabled;
-  p.drag = s.coupling.drag == "di-felice" ? DragLaw::di_felice : DragLaw::ergun_wen_yu;
+  p.drag = s.coupling.drag == "di-felice" ? coupling::Drag::di_felice : coupling::Drag::ergun_wen_yu;
   p.smoothing_length = s.coupling.smoothing_length;
   p.added_mass = s.coupling.added_mass;
   for (const Slide& slide : s.slides) p.real_diameter.push_back(slide.real_diameter);
+  return p;
+}
+
+dem::ContactParameters contact_parameters(const Contact& c) {
+  dem::ContactParameters p;
+  p.law = c.law == "linear" ? dem::ContactLawKind::linear : dem::ContactLawKind::hertz;
+  p.youngs_modulus = c.youngs_modulus;
+  p.poisson_ratio = c.poisson_ratio;
+  p.stiffness = c.stiffness;
+  p.stiffness_ratio = c.stiffness_ratio;
+  p.restitution = c.restitution;
+  p.friction = c.friction;
+  p.wall_friction = c.wall_friction;
+  p.rolling_friction = c.rolling_friction;
+  p.cohesion = c.cohesion;
   return p;
 }
 
@@ -164,6 +179,7 @@ SimulationInput case_to_input(Case& c) {
   SimulationInput input;
   set_domain(c, input);
   input.fluid_parameters = fluid_parameters(c);
+  input.contact = contact_parameters(c.scene.contact);
   input.coupling = coupling_parameters(c.scene);
   input.time = time_parameters(c.scene.numerics);
   for (const Slide& slide : c.scene.slides) input.release_time.push_back(slide.release_at);

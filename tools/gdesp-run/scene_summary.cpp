@@ -98,7 +98,7 @@ void describe_grains(SceneSummary& s, const Scene& scene, const SimulationInput&
             ", friction " + number_text(c.friction) + ", restitution " + number_text(c.restitution));
   const bool coupled = in.coupling.enabled && !in.fluid.position.empty();
   model(s, "coupling", coupled,
-        coupled ? std::string(in.coupling.drag == DragLaw::di_felice ? "drag of Di Felice" : "drag of Ergun and Wen-Yu") +
+        coupled ? std::string(in.coupling.drag == coupling::Drag::di_felice ? "drag of Di Felice" : "drag of Ergun and Wen-Yu") +
                       ", added mass " + number_text(in.coupling.added_mass)
                 : (in.fluid.position.empty() ? "no water" : "coupling.enabled = false"));
 }

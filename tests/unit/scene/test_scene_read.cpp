@@ -296,6 +296,7 @@ TEST_F(SceneRead, paper_preset_sets_its_options_and_single_keys_win) {
   EXPECT_EQ(s.numerics.time_scheme, "verlet");
   EXPECT_EQ(s.numerics.walls, "dynamic");
   EXPECT_EQ(s.numerics.viscosity, "morris");
+  EXPECT_EQ(s.numerics.smoothing_ratio, 1.3);
   EXPECT_EQ(s.numerics.density_diffusion, 0.0);
   EXPECT_FALSE(s.numerics.multirate);
   EXPECT_EQ(s.numerics.time_step, 0.0) << "fixed only when the user says so";
