@@ -6,8 +6,9 @@ usage: check_includes.py [repository root]
 
 Rules:
   modules     a file includes headers of its own module and of those that MAY_INCLUDE names for it
-  laws        a header of dem, sph or coupling with an `@eq tag` comment reaches nothing but core, the standard
-              library and other such headers of its module: it can be tested on paper
+  laws        a header of dem, sph or coupling with an `@eq tag` comment and the formula itself (GDESP_HD functions)
+              reaches nothing but core, the standard library and other such headers of its module: it can be tested
+              on paper. A tag may also stand at a sum over particles, which needs them: no law header.
   solver      the solver modules include no third party's headers; CUDA, CUB and OpenMP stay in exec
   heavy       CGAL, OpenVDB, gmsh and toml++ are slow to compile: never in a header that another module includes
   tools       a tool includes lib and itself, never another tool
@@ -72,8 +73,9 @@ class Checker:
 
     def check_lib_file(self, path, module):
         text = path.read_text(encoding="utf-8", errors="replace")
-        is_law = path.suffix == ".hpp" and module in ("sph", "dem", "coupling") and LAW.search(text)
         code = without_comments(text)
+        is_law = (path.suffix == ".hpp" and module in ("sph", "dem", "coupling") and LAW.search(text)
+                  and "GDESP_HD" in code)
         for match in INCLUDE.finditer(code):
             line, kind, target = code.count("\n", 0, match.start()) + 1, match.group(1), match.group(2)
             other = self.module_of(path, kind, target)

@@ -47,6 +47,7 @@ def split_parameters(text):
 def function_head(head):
     """(name, parameters) when the text before a brace heads a function, else None."""
     head = re.sub(r"\[\[[^\]]*\]\]|__launch_bounds__\([^()]*\)", "", head).strip()
+    head = re.sub(r"^(?:[A-Z][A-Z0-9_]+\([^()]*\)\s*)+(?=\w)", "", head)
     if re.match(r"(namespace|class|struct|union|enum|extern)\b", re.sub(r"^template\s*<[^{}]*?>\s*(?=\w)", "", head)):
         return None
     match = re.match(r"(?s)(?:.*?[\s*&>:~])??(operator\s*\(\)|operator\s*[^\s\w(]+|~?\w+)\s*\(", head)

@@ -13,7 +13,7 @@ class CheckIncludes(TreeTest):
         self.write("lib/core/vec3.hpp", "#pragma once\n#include <cmath>\n")
         self.write("lib/scene/scene.hpp", '#include "core/vec3.hpp"\n')
         self.write("lib/exec/cuda/launch.cuh", "#include <cub/cub.cuh>\n")
-        self.write("lib/sph/tait.hpp", '// @eq sph.eos.tait\n#include "core/vec3.hpp"\n')
+        self.write("lib/sph/tait.hpp", '// @eq sph.eos.tait\nGDESP_HD float p();\n#include "core/vec3.hpp"\n')
         self.write("lib/sph/momentum.cpp", '#include "sph/tait.hpp"\n')
         self.write("lib/dem/contact.hpp", '#include "core/vec3.hpp"\n')
         self.write("lib/coupling/drag.cpp", '#include "sph/tait.hpp"\n#include "dem/contact.hpp"\n')
@@ -45,13 +45,18 @@ class CheckIncludes(TreeTest):
 
     def test_law_header_reaches_core_only(self):
         self.write("lib/exec/array.hpp", "")
-        self.write("lib/sph/tait.hpp", '// @eq sph.eos.tait\n#include "exec/array.hpp"\n')
+        self.write("lib/sph/tait.hpp", '// @eq sph.eos.tait\nGDESP_HD float p();\n#include "exec/array.hpp"\n')
         self.assert_finds("a law header")
+
+    def test_a_sum_over_particles_is_no_law_header(self):
+        self.write("lib/exec/array.hpp", "")
+        self.write("lib/sph/tait.hpp", '// @eq sph.eos.tait\n#include "exec/array.hpp"\n')
+        self.assert_clean()
 
     def test_law_header_through_a_neighbour(self):
         self.write("lib/exec/array.hpp", "")
         self.write("lib/sph/kinds.hpp", '#include "core/vec3.hpp"\n')
-        self.write("lib/sph/tait.hpp", '// @eq sph.eos.tait\n#include "sph/kinds.hpp"\n')
+        self.write("lib/sph/tait.hpp", '// @eq sph.eos.tait\nGDESP_HD float p();\n#include "sph/kinds.hpp"\n')
         self.assert_clean()
         self.write("lib/sph/kinds.hpp", '#include "exec/array.hpp"\n')
         self.assert_finds("a law header")

@@ -5,7 +5,7 @@ import unittest
 from tree import TreeTest
 
 CODE = '''
-namespace gdesp {
+MODULE_INIT(something) namespace gdesp {
 struct Grid {
   Grid(int nx, int ny) : nx_(nx), ny_{ny} {}
   bool operator()(const Pair<int, int>& pair) const { return pair.first < nx_; }
