@@ -40,24 +40,28 @@ void check_contact_parameters(const ContactParameters& p) {
   require(p.skin > 0.0 && p.skin <= 2.0, "skin", p.skin, "diameters", "above 0, to 2");
 }
 
-ContactLawSet make_contact_laws(const ContactParameters& p) {
+ContactLawSet make_contact_laws(const ContactParameters& p, int dimensions) {
   check_contact_parameters(p);
   const double e_grain = p.youngs_modulus, nu_grain = p.poisson_ratio;
   const double e_wall = p.wall_youngs_modulus > 0.0 ? p.wall_youngs_modulus : e_grain;
   const double nu_wall = p.wall_youngs_modulus > 0.0 ? p.wall_poisson_ratio : nu_grain;
   const double wall_friction = or_else(p.wall_friction, p.friction);
   const double wall_restitution = or_else(p.wall_restitution, p.restitution);
+  const double e_pair = effective_modulus(e_grain, nu_grain, e_grain, nu_grain);
+  const double g_pair = effective_shear_modulus(e_grain, nu_grain, e_grain, nu_grain);
+  const double e_star_wall = effective_modulus(e_grain, nu_grain, e_wall, nu_wall);
+  const double g_star_wall = effective_shear_modulus(e_grain, nu_grain, e_wall, nu_wall);
   ContactLawSet set;
-  set.kind = p.law;
-  set.hertz = laws(make_hertz_mindlin(effective_modulus(e_grain, nu_grain, e_grain, nu_grain),
-                                      effective_shear_modulus(e_grain, nu_grain, e_grain, nu_grain), p.restitution),
-                   p.friction, p);
-  set.hertz_wall = laws(make_hertz_mindlin(effective_modulus(e_grain, nu_grain, e_wall, nu_wall),
-                                           effective_shear_modulus(e_grain, nu_grain, e_wall, nu_wall),
-                                           wall_restitution),
-                        wall_friction, p);
-  set.linear = laws(make_linear_spring_dashpot(p.stiffness, p.stiffness_ratio, p.restitution), p.friction, p);
-  set.linear_wall = laws(make_linear_spring_dashpot(p.stiffness, p.stiffness_ratio, wall_restitution), wall_friction, p);
+  set.kind = dimensions == 2 ? ContactLawKind::linear : p.law;
+  set.hertz = laws(make_hertz_mindlin(e_pair, g_pair, p.restitution), p.friction, p);
+  set.hertz_wall = laws(make_hertz_mindlin(e_star_wall, g_star_wall, wall_restitution), wall_friction, p);
+  const bool lines = p.law == ContactLawKind::hertz;
+  const double k = lines ? line_contact_stiffness(e_pair) : p.stiffness;
+  const double k_wall = lines ? line_contact_stiffness(e_star_wall) : p.stiffness;
+  const double ratio = lines ? 4.0 * g_pair / e_pair : p.stiffness_ratio;
+  const double ratio_wall = lines ? 4.0 * g_star_wall / e_star_wall : p.stiffness_ratio;
+  set.linear = laws(make_linear_spring_dashpot(k, ratio, p.restitution), p.friction, p);
+  set.linear_wall = laws(make_linear_spring_dashpot(k_wall, ratio_wall, wall_restitution), wall_friction, p);
   return set;
 }
 

@@ -37,6 +37,7 @@ struct ContactLawSet {
 
 /// Throws Error(input) naming the parameter, the value and what is valid.
 void check_contact_parameters(const ContactParameters& parameters);
-ContactLawSet make_contact_laws(const ContactParameters& parameters);
+/// In two dimensions `hertz` means the line contact of rods, which is linear (dem.line.normal).
+ContactLawSet make_contact_laws(const ContactParameters& parameters, int dimensions);
 
 }  // namespace gdesp::dem

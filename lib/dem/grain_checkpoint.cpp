@@ -19,7 +19,7 @@ struct Header {
   std::uint64_t mark = checkpoint_mark;
   double time = 0.0, half_before = 0.0, drift = 0.0;
   float moved2 = 0.0f, speed2 = 0.0f, overlap = 0.0f;
-  std::int32_t must_rebuild = 0, rolling = 0;
+  std::int32_t must_rebuild = 0, rolling = 0, reserved = 0;
   std::int64_t substeps = 0, rebuilds = 0;
   Index slots = 0, lost = 0;
 };
@@ -71,6 +71,26 @@ class Reader {
   const std::vector<char>& bytes_;
   std::size_t at_ = 0;
 };
+
+// Member by member: the padding of a struct has no defined bytes.
+void put_body(Writer& w, const BodyMotionState& body) {
+  w.put(body.centre_initial);
+  w.put(body.centre_begin);
+  w.put(body.centre_end);
+  w.put(body.rotation_begin);
+  w.put(body.rotation_end);
+  w.put(static_cast<std::int32_t>(body.present));
+}
+BodyMotionState get_body(Reader& r) {
+  BodyMotionState body;
+  body.centre_initial = r.get<Vec3d>();
+  body.centre_begin = r.get<Vec3d>();
+  body.centre_end = r.get<Vec3d>();
+  for (double& x : body.rotation_begin) x = r.get<double>();
+  for (double& x : body.rotation_end) x = r.get<double>();
+  body.present = r.get<std::int32_t>() != 0;
+  return body;
+}
 
 // Rows in the order of slots: where the overflow rows lie depends on the threads.
 struct OrderedRows {
@@ -160,7 +180,8 @@ std::vector<char> GrainSystem<Exec>::save() const {
   w.put(walls_.history().to_host());
   w.put(walls_.impulse_units());
   w.put(listed_poses_);
-  w.put(bodies_);
+  w.put(static_cast<std::uint64_t>(bodies_.size()));
+  for (const BodyMotionState& body : bodies_) put_body(w, body);
   w.put(release_time_);
   w.put(held_group_);
   return w.bytes;
@@ -187,7 +208,8 @@ void GrainSystem<Exec>::load(const std::vector<char>& bytes) {
   const auto wall_history = r.get_vector<WallHistory>();
   walls_.set_impulse_units(r.get_vector<std::int64_t>());
   listed_poses_ = r.get_vector<ListedPose>();
-  bodies_ = r.get_vector<BodyMotionState>();
+  bodies_.clear();
+  for (auto left = r.get<std::uint64_t>(); left > 0; --left) bodies_.push_back(get_body(r));
   release_time_ = r.get_vector<double>();
   held_group_ = r.get_vector<std::int32_t>();
   if (!r.done() || position.size() != static_cast<std::size_t>(slots_)) Reader::fail();

@@ -8,7 +8,7 @@
 //   Source: Hockney & Eastwood (1988), Computer Simulation Using Particles, section 4-3, doi:10.1201/9780367806934;
 //   velocity predicted for the forces: Groot & Warren (1997), J. Chem. Phys. 107, 4423, doi:10.1063/1.474784, eq. 9.
 // @eq dem.motion.drag
-//   v_new = (v + k/M (F + b u)) / (1 + k b/M);  impulse on the grain J = k b (u - v_new)
+//   v_new = (v + k/M (F + b u)) / (1 + k b/M);  impulse on the grain J = k b (u - v_new) = M (v_new - v) - k F
 //   b: drag coefficient [kg/s]; u: fluid velocity at the grain [m/s]; M = m + added mass [kg]; F: all other forces.
 //   Implicit Euler for the relaxation: stable for any k b/M, monotone towards u.
 //   Source: the backward Euler rule on m dv/dt = F + b (u - v), eq. 11 of the G-DeSp paper.

@@ -124,30 +124,22 @@ struct GrainStep {
     }
   }
 
-  // v(n+1/2) from all forces.
-  GDESP_HD Vec3f kicked_velocity(Index i, const GrainRecord& own, Vec3f force, float kick) const {
+  // v(n+1/2) from all forces. What drag gave is what they leave of the change: momentum balances to round-off.
+  GDESP_HD Vec3f kicked_velocity(Index i, const GrainRecord& own, Vec3f force, float kick, bool writes) const {
     const Vec3f old = v.velocity[i];
     force += own.mass * v.gravity;
-    float mass = own.mass, drag = 0.0f;
-    Vec3f u{};
-    if (v.fluid.drag_coefficient) {
-      force += v.fluid.other_force[i];
-      mass += v.fluid.added_mass[i];
-      drag = v.fluid.drag_coefficient[i];
-      u = v.fluid.fluid_velocity[i];
+    if (!v.fluid.drag_coefficient) return old + (kick / own.mass) * force;
+    force += v.fluid.other_force[i];
+    const float mass = own.mass + v.fluid.added_mass[i], drag = v.fluid.drag_coefficient[i], share = kick / mass;
+    const Vec3f u = v.fluid.fluid_velocity[i];
+    const Vec3f velocity{dragged_velocity(old.x, share, force.x, drag, u.x),
+                         dragged_velocity(old.y, share, force.y, drag, u.y),
+                         dragged_velocity(old.z, share, force.z, drag, u.z)};
+    if (writes) {
+      v.fluid.drag_impulse[i] += static_cast<double>(mass) * (Vec3d(velocity) - Vec3d(old)) -
+                                 static_cast<double>(kick) * Vec3d(force);
     }
-    const float share = kick / mass;
-    return {dragged_velocity(old.x, share, force.x, drag, u.x), dragged_velocity(old.y, share, force.y, drag, u.y),
-            dragged_velocity(old.z, share, force.z, drag, u.z)};
-  }
-  GDESP_HD void note_drag(Index i, const Vec3f& velocity, float kick) const {
-    if (!v.fluid.drag_coefficient) return;
-    const double b = static_cast<double>(kick) * v.fluid.drag_coefficient[i];
-    const Vec3f& u = v.fluid.fluid_velocity[i];
-    Vec3d& sum = v.fluid.drag_impulse[i];
-    sum.x += b * (static_cast<double>(u.x) - velocity.x);
-    sum.y += b * (static_cast<double>(u.y) - velocity.y);
-    sum.z += b * (static_cast<double>(u.z) - velocity.z);
+    return velocity;
   }
   // Moves one coordinate by a length in units; the part of a unit that is left is owed.
   GDESP_HD static void move(std::int32_t& place, float& rest, float units) {
@@ -159,12 +151,14 @@ struct GrainStep {
 
   GDESP_HD exec::Largest finish(Index i, const GrainRecord& own, const Vec3f& force, const Vec3f& torque, float overlap,
                                 bool writes) const {
-    const float kick = v.half.before + v.half.after, drift = 2.0f * v.half.after;
+    // A grain released now starts from rest at time n: its first kick has no half before.
+    const float kick = (own.mobility < 1.0f ? 0.0f : v.half.before) + v.half.after, drift = 2.0f * v.half.after;
     const Vec3f velocity_old = v.velocity[i], spin_old = v.spin[i];
-    const Vec3f velocity = kicked_velocity(i, own, force, kick);
+    const Vec3f velocity = kicked_velocity(i, own, force, kick, writes);
     const float turn = kick / (v.inertia_factor * own.mass * own.radius * own.radius);
     const Vec3f spin = spin_old + turn * torque;
     GrainRecord next = own;
+    next.mobility = 1.0f;
     move(next.x, next.rest_x, velocity.x * drift * v.unit.inverse.x);
     move(next.y, next.rest_y, velocity.y * drift * v.unit.inverse.y);
     move(next.z, next.rest_z, velocity.z * drift * v.unit.inverse.z);
@@ -178,7 +172,6 @@ struct GrainStep {
     next.sy = surface.y;
     next.sz = surface.z;
     if (writes) {
-      note_drag(i, velocity, kick);
       v.velocity[i] = velocity;
       v.spin[i] = spin;
       v.next[i] = next;

@@ -93,7 +93,8 @@ struct Release {
     if (r.radius < 0.0f) return;
     const std::int32_t g = group[i];
     const bool free = g < 0 || g >= groups || !held[g];
-    r.mobility = free ? 1.0f : 0.0f;
+    if (free && r.mobility == 0.0f) r.mobility = just_released;
+    if (!free) r.mobility = 0.0f;
     if (!free) r.vx = r.vy = r.vz = r.sx = r.sy = r.sz = 0.0f;
   }
 };
@@ -108,7 +109,7 @@ void shrink_discard(const Exec&, Array<T, Exec>& array, Index size) {
 template <class Exec>
 GrainSystem<Exec>::GrainSystem(const Exec& exec, const Domain& domain, const GrainTable& grains,
                                const ContactParameters& contact, const TriangleTable& walls, const Vec3d& gravity)
-    : exec_(exec), domain_(domain), laws_(make_contact_laws(contact)), contact_(contact), gravity_(gravity),
+    : exec_(exec), domain_(domain), laws_(make_contact_laws(contact, domain.dimensions)), contact_(contact), gravity_(gravity),
       contacts_(exec, contact.rolling_friction > 0.0), position_(exec), sorted_position_(exec), id_(exec), group_(exec), now_(exec),
       next_(exec), velocity_(exec), spin_(exec), start_(exec), radius_(exec), mass_(exec), drag_impulse_(exec),
       measure_(exec), held_(exec), scratch_position_(exec), scratch_id_(exec), scratch_group_(exec),
@@ -117,7 +118,7 @@ GrainSystem<Exec>::GrainSystem(const Exec& exec, const Domain& domain, const Gra
   largest_radius_ = state.largest_radius;
   smallest_radius_ = state.smallest_radius;
   skin_ = contact.skin * 2.0 * largest_radius_;
-  critical_time_ = critical_time(state, contact);
+  critical_time_ = critical_time(state, contact, laws_);
   // Cells as wide as the commonest reach; separations must stay below half a tile.
   const double reach = 2.0 * largest_radius_ + skin_;
   check_reach(domain, reach);

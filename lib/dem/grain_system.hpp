@@ -38,8 +38,8 @@ class GrainSystem {
   GrainSystem(const Exec& exec, const Domain& domain, const GrainTable& grains, const ContactParameters& contact,
               const TriangleTable& walls, const Vec3d& gravity);
 
-  /// s: `share` of the Rayleigh time (hertz) or of the contact time (linear), and never more than a grain needs to move
-  /// a tenth of a radius.
+  /// s: `share` of the Rayleigh time (hertz) or of a quarter of the contact time (linear; line contacts of discs), and
+  /// never more than a grain needs to move a tenth of a radius.
   double stable_time_step(double share) const;
   /// Release time (s) of each group of grains; held before. Groups without one are free from the start.
   void set_release_times(const std::vector<double>& by_group);

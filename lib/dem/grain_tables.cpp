@@ -89,12 +89,13 @@ GrainStart make_grain_start(const Domain& domain, const GrainTable& table) {
   return start;
 }
 
-double critical_time(const GrainStart& start, const ContactParameters& contact) {
+double critical_time(const GrainStart& start, const ContactParameters& contact, const ContactLawSet& laws) {
   double shortest = 1.0e30;
   for (const GrainRecord& grain : start.record) {
     const double r = grain.radius;
-    if (contact.law == ContactLawKind::linear) {
-      shortest = std::min(shortest, linear_contact_time(contact.stiffness, 0.5 * grain.mass, contact.restitution));
+    if (laws.kind == ContactLawKind::linear) {
+      const double stiffness = std::max(laws.linear.law.stiffness, 0.5f * laws.linear_wall.law.stiffness);
+      shortest = std::min(shortest, 0.25 * linear_contact_time(stiffness, 0.5 * grain.mass, contact.restitution));
     } else {
       const double density = grain.mass / (4.0 / 3.0 * pi * r * r * r);
       shortest = std::min(shortest, rayleigh_time(r, density, contact.youngs_modulus, contact.poisson_ratio));

@@ -25,8 +25,9 @@ double grain_mass(double diameter, double density, int dimensions);
 /// Throws Error(input) for a diameter or density that is not positive and for columns of different length.
 GrainStart make_grain_start(const Domain& domain, const GrainTable& table);
 
-/// s: the smallest Rayleigh time (hertz) or contact time (linear) of the grains.
-double critical_time(const GrainStart& start, const ContactParameters& contact);
+/// s: the smallest Rayleigh time (hertz) or a quarter of the smallest contact time (linear, and discs) of the grains: the
+/// same share of either gives steps of like accuracy, and keeps clear of instability with many contacts a grain.
+double critical_time(const GrainStart& start, const ContactParameters& contact, const ContactLawSet& laws);
 
 /// Throws Error(input) when grains are too large for exact separations within the domain's blocks.
 void check_reach(const Domain& domain, double reach);

@@ -15,12 +15,13 @@ struct alignas(64) GrainRecord {
   float vx, vy, vz;        ///< m/s at time n (predicted from the half step, second order)
   float mass;              ///< kg
   float sx, sy, sz;        ///< m/s: radius times angular velocity at time n
-  float mobility;          ///< 1: moves; 0: held until released
+  float mobility;          ///< 1: moves; just_released: moves from now on; 0: held
   float rest_x, rest_y, rest_z;  ///< part of a unit that the position still owes
   std::int32_t wall;       ///< number among the grains near walls, or -1
 };
 static_assert(sizeof(GrainRecord) == 64);
 inline constexpr int record_floats = 16;
+inline constexpr float just_released = 0.5f;
 inline constexpr float no_radius = -1.0e30f;
 
 /// Eight contacts or near neighbours of one grain. Empty lanes name the dummy record behind the last slot.

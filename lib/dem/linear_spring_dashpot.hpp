@@ -9,6 +9,11 @@
 //   e: restitution coefficient, 0 < e <= 1; m*: effective mass [kg]; v_n = v_ij . n [m/s]. Exact: the half period
 //   of the damped oscillator ends with speed e times the first. Source: Schafer, Dippel, Wolf (1996),
 //   J. Phys. I France 6, 5, doi:10.1051/jp1:1996129, eqs 12-14.
+// @eq dem.line.normal
+//   F = (pi/4) E* L delta
+//   Contact of parallel rods of length L = 1 m (discs of a plane problem), F [N]; E* as in dem.hertz.normal [Pa]. The
+//   stiffness of a line contact hardly depends on the radii; tangential: times 4 G*/E* of Mindlin; damping as linear.
+//   Source: Popov (2010), Contact Mechanics and Friction, chapter 5, doi:10.1007/978-3-642-10803-7.
 #pragma once
 
 #include <cmath>
@@ -46,5 +51,8 @@ inline LinearSpringDashpot make_linear_spring_dashpot(double stiffness, double r
   return {static_cast<float>(stiffness), static_cast<float>(2.0 * beta * std::sqrt(stiffness)),
           static_cast<float>(ratio * stiffness), static_cast<float>(2.0 * beta * std::sqrt(ratio * stiffness))};
 }
+
+/// k of a line contact, N/m, for E* (Pa) and a length of one metre.
+inline double line_contact_stiffness(double e_star) { return 0.78539816339744831 * e_star; }
 
 }  // namespace gdesp::dem

@@ -3,8 +3,7 @@
 //   T_R = pi R sqrt(rho / G) / (0.1631 nu + 0.8766)
 //   T_R: time of a Rayleigh wave over half a grain [s]; R: radius [m]; rho: density [kg/m3]; G: shear modulus [Pa];
 //   nu: Poisson ratio. A step is a share of it (0.1-0.3). Source: Li, Xu, Thornton (2005), Powder Technol. 160, 219,
-//   doi:10.1016/j.powtec.2005.09.002, after Thornton & Randall (1988). Discs of unit length: rho = m / (4/3 pi R^3),
-//   since their contacts have the stiffness of spheres.
+//   doi:10.1016/j.powtec.2005.09.002, after Thornton & Randall (1988).
 // @eq dem.time_step.linear
 //   T_c = sqrt(pi^2 + ln^2 e) / sqrt(k / m*)
 //   T_c: contact time [s] of the damped linear contact; k: stiffness [N/m]; m*: effective mass [kg]; e: restitution.

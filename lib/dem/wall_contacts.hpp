@@ -11,7 +11,7 @@ namespace gdesp::dem {
 struct ListedPose {
   double to_body[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};   ///< R^T
   Vec3d centre, centre_initial;                      ///< m
-  std::int32_t present = 1;
+  std::int32_t present = 1, reserved = 0;
 };
 
 template <class Exec>

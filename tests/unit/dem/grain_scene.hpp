@@ -25,6 +25,12 @@ inline void add_grain(GrainTable& table, const Vec3d& position, double diameter,
   table.angular_velocity.push_back(Vec3f(spin));
 }
 
+/// kg, of a sphere.
+inline double grain_mass_of(const GrainTable& t, std::size_t i) {
+  const double d = t.diameter[i];
+  return static_cast<double>(t.density[i]) * 3.14159265358979324 / 6.0 * d * d * d;
+}
+
 /// A rectangle a, b, c, d (its front by the right-hand rule) as two triangles.
 inline void add_rectangle(TriangleTable& table, const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d,
                           std::int32_t body = 0) {
