@@ -101,7 +101,8 @@ FramePaths FrameWriter::write(const Frame& frame) {
   for (const char* kind : frame_kinds) {
     const bool any = std::any_of(written_.begin(), written_.end(),
                                  [&](FramePaths& f) { return !frame_path(f, kind).empty(); });
-    if (any) write_text_file(folder_ + "/" + kind + ".pvd", pvd_text(folder_, kind, written_));
+    const std::string series = folder_ + "/" + kind + ".pvd";
+    if (any || fs::exists(series)) write_text_file(series, pvd_text(folder_, kind, written_));
   }
   return paths;
 }

@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 #include "io/point_source.hpp"
-#include "io/vdb_guard.hpp"
+#include "io/foreign_guard.hpp"
 
 namespace gdesp {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/vtk_guard.hpp"
+#include "io/foreign_guard.hpp"
 
 #include <algorithm>
 #include <cctype>

@@ -24,7 +24,7 @@
 
 #include "core/error.hpp"
 #include "io/point_source.hpp"
-#include "io/vtk_guard.hpp"
+#include "io/foreign_guard.hpp"
 
 namespace gdesp {
 namespace {
@@ -71,12 +71,14 @@ vtkSmartPointer<vtkPointSet> read_file(const std::string& path) {
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
   vtkSmartPointer<vtkPointSet> data;
   unsigned long code = 0;
-  {
+  try {
     const vtkNew<Reader> reader;
     reader->SetFileName(path.c_str());
     reader->Update();
     code = reader->GetErrorCode();
     data = vtkPointSet::SafeDownCast(reader->GetOutput());
+  } catch (const std::exception& problem) {  // sizes that lie end in bad_alloc or length_error
+    catcher->messages += std::string("): ") + problem.what();
   }
   vtkOutputWindow::SetInstance(before);
   if (code != 0 || !catcher->messages.empty())

@@ -214,6 +214,21 @@ TEST_F(CaseTest, preset_can_be_changed_when_the_case_is_read) {
   EXPECT_EQ(read_case(path).scene.numerics.walls, "extrapolated");
 }
 
+/// Whatever the presets set: reading the case with another preset is reading its scene with that preset.
+TEST_F(CaseTest, another_preset_leaves_nothing_of_the_old_one) {
+  const std::string scene = folder.write("plain.toml", "[resolution]\ndp = 1\n");
+  for (const char* made_with : {"accurate", "paper"})
+    for (const char* read_with : {"accurate", "paper"}) {
+      Case c;
+      c.scene = read_scene(scene, {{"numerics.preset", made_with}});
+      c.domain = {{0, 0, 0}, {1, 1, 1}};
+      write_case(path, c, true);
+      EXPECT_EQ(scene_to_toml(read_case(path, {{"numerics.preset", read_with}}).scene),
+                scene_to_toml(read_scene(scene, {{"numerics.preset", read_with}})))
+          << made_with << " read as " << read_with;
+    }
+}
+
 TEST_F(CaseTest, what_is_no_case_is_refused) {
   refused({"lake.case", "no such case"});
   std::filesystem::create_directory(path);

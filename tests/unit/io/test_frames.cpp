@@ -120,6 +120,22 @@ TEST_F(FramesTest, resumed_run_goes_on_where_its_checkpoint_stands) {
   EXPECT_EQ(out.write(some_frame(0.3, 78)).fluid, run + "/frames/fluid_00003.vtp");
 }
 
+/// Grains that only the abandoned frames had are in no list afterwards.
+TEST_F(FramesTest, resumed_run_forgets_parts_of_abandoned_frames) {
+  Frame water = some_frame(0.0, 0);
+  water.grains = {};
+  {
+    FrameWriter out = writer();
+    out.write(water);
+    out.write(some_frame(0.1, 1));
+  }
+  water.time = 0.1;
+  writer(false, true).write(water);
+  const std::vector<FramePaths> frames = list_frames(run);
+  ASSERT_EQ(frames.size(), 2u);
+  EXPECT_TRUE(frames[1].grains.empty());
+}
+
 TEST_F(FramesTest, case_of_a_run) {
   expect_error(ErrorKind::input, {"no such run"}, [&] { run_case_path(run); });
   writer();
