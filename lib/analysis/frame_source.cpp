@@ -58,7 +58,7 @@ std::optional<FramePaths> FrameSource::Reader::next_record() {
     if (kind == "failed") {
       const std::lock_guard lock(mutex);
       failed = true;
-      failure = text_of(*record, "error").empty() ? text_of(*record, "message") : text_of(*record, "error");
+      failure = text_of(*record, "message");
     }
     if (!text_of(*record, "case").empty()) case_path = text_of(*record, "case");
     if (kind != "frame") continue;

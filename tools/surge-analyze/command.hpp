@@ -17,6 +17,14 @@ int run_runup(const std::vector<std::string>& arguments);
 int run_front(const std::vector<std::string>& arguments);
 int run_profile(const std::vector<std::string>& arguments);
 int run_gauge(const std::vector<std::string>& arguments);
+int run_slide(const std::vector<std::string>& arguments);
+int run_energy(const std::vector<std::string>& arguments);
+int run_surface(const std::vector<std::string>& arguments);
+int run_map(const std::vector<std::string>& arguments);
+int run_compare(const std::vector<std::string>& arguments);
+int run_converge(const std::vector<std::string>& arguments);
+int run_tradeoff(const std::vector<std::string>& arguments);
+int run_report(const std::vector<std::string>& arguments);
 int run_render(const std::vector<std::string>& arguments);
 
 /// All commands, in the order of the help.

@@ -42,16 +42,19 @@ po::options_description output_options() {
   return o;
 }
 
-CommandLine::CommandLine(const std::string& command, po::options_description own) : name(command) {
-  all.add(own).add(input_options()).add(output_options()).add(cli::common_options());
+CommandLine::CommandLine(const std::string& command, po::options_description own, Inputs inputs) : name(command) {
+  all.add(own);
+  if (inputs == Inputs::frames) all.add(input_options());
+  all.add(output_options()).add(cli::common_options());
 }
 
 bool CommandLine::parse(const std::vector<std::string>& arguments, const std::string& definition,
-                        const std::string& example) {
-  po::positional_options_description positional;
-  positional.add("input", -1);
-  vm = cli::parse(arguments, all, positional);
-  if (cli::answer_help_or_version(vm, "surge-analyze " + name + " RUN [options]\n" + definition, all, "Example: " + example + "\n")) {
+                        const std::string& example, const char* positional) {
+  po::positional_options_description words;
+  words.add(positional, -1);
+  vm = cli::parse(arguments, all, words);
+  const std::string what = std::string(positional) == "input" ? " RUN [options]\n" : " TABLE REFERENCE [options]\n";
+  if (cli::answer_help_or_version(vm, "surge-analyze " + name + what + definition, all, "Example: " + example + "\n")) {
     return false;
   }
   cli::apply_common(vm);

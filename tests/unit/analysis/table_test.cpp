@@ -12,12 +12,12 @@ namespace gdesp::analysis {
 namespace {
 
 std::string print(TableFormat format) {
-  std::ostringstream out;
-  TableWriter writer(out, format, {"t[s]", "region"});
+  std::string out;
+  TableWriter writer([&](const std::string& text) { out += text; }, format, {"t[s]", "region"});
   writer.row({0.1, std::string("far, bank")});
   writer.row({std::nan(""), std::string("a\"b")});
   writer.finish();
-  return out.str();
+  return out;
 }
 
 TEST(TableWriter, Tsv) { EXPECT_EQ(print(TableFormat::tsv), "t[s]\tregion\n0.1\tfar, bank\nnan\ta\"b\n"); }
@@ -27,9 +27,9 @@ TEST(TableWriter, Json) {
             "[\n{\"t[s]\":0.1,\"region\":\"far, bank\"},\n{\"t[s]\":null,\"region\":\"a\\\"b\"}\n]\n");
 }
 TEST(TableWriter, JsonWithoutRowsIsAnEmptyArray) {
-  std::ostringstream out;
-  { TableWriter writer(out, TableFormat::json, {"t[s]"}); }
-  EXPECT_EQ(out.str(), "[]\n");
+  std::string out;
+  { TableWriter writer([&](const std::string& text) { out += text; }, TableFormat::json, {"t[s]"}); }
+  EXPECT_EQ(out, "[]\n");
 }
 
 TEST(ReadTable, CommentsUnitsAndGaps) {

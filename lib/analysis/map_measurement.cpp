@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/map_measurement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "analysis/wall_surface.hpp"
+#include "core/error.hpp"
+
+namespace gdesp::analysis {
+
+namespace {
+
+constexpr float none = std::numeric_limits<float>::quiet_NaN();
+constexpr std::size_t most_cells = 100u << 20;
+
+Raster empty_like(const Raster& r) {
+  Raster copy = r;
+  std::fill(copy.value.begin(), copy.value.end(), none);
+  return copy;
+}
+
+}  // namespace
+
+std::vector<std::string> MapMeasurement::begin(const RunInfo& info) {
+  info_ = info;
+  if (info.dimensions == 2) throw Error(ErrorKind::input, info.name + ": a map needs a run in three dimensions; see profile");
+  const double cell = options_.cell > 0.0 ? options_.cell : info.dp;
+  threshold_ = options_.threshold > 0.0 ? options_.threshold : 0.5 * info.dp;
+  const Vec3d size = info.domain.upper - info.domain.lower;
+  if (size.x / cell * (size.y / cell) > static_cast<double>(most_cells)) {
+    throw Error(ErrorKind::usage, "--cell " + format_number(cell) + ": makes more than 100 million cells; take a larger one");
+  }
+  // Cell centres on multiples of the cell in the scene's own coordinates, so that maps of several runs lie on top of each other.
+  const auto snap = [&](double value, double offset) { return std::floor((value + offset) / cell) * cell + 0.5 * cell - offset; };
+  const Vec3d lower{snap(info.domain.lower.x, info.offset.x), snap(info.domain.lower.y, info.offset.y), 0.0};
+  ground_ = make_raster(lower, info.domain.upper, cell, 3);
+  const WallSurface walls(info.walls);
+  info_.walls = {};
+#pragma omp parallel for schedule(dynamic, 256)
+  for (std::size_t k = 0; k < ground_.value.size(); ++k) {
+    const auto z = walls.height(ground_.x(static_cast<int>(k % ground_.nx)), ground_.y(static_cast<int>(k / ground_.nx)));
+    if (z) ground_.value[k] = static_cast<float>(*z);
+  }
+  first_ = level_ = depth_ = arrival_ = last_departure_ = empty_like(ground_);
+  return {"map", "unit", "lowest", "highest", "cells", "area[m2]"};
+}
+
+void MapMeasurement::add(FrameView& view, const RowSink&) {
+  if (view.frame().fluid.position.empty()) return;
+  Raster now = empty_like(ground_);
+  fill_surface_levels(view.water(), now);
+  const double t = view.time();
+#pragma omp parallel for schedule(static)
+  for (std::size_t k = 0; k < now.value.size(); ++k) {
+    const float z = now.value[k], bed = ground_.value[k];
+    const float depth = std::isfinite(bed) ? z - bed : none;
+    if (!any_) first_.value[k] = z;
+    if (!std::isfinite(z) || (std::isfinite(bed) && depth < threshold_)) continue;
+    if (!(level_.value[k] >= z)) level_.value[k] = z;
+    if (std::isfinite(depth) && !(depth_.value[k] >= depth)) depth_.value[k] = depth;
+    if (!any_ || std::isfinite(arrival_.value[k])) continue;
+    const float start = first_.value[k];
+    const double departure = std::isfinite(start) ? std::abs(z - start) : threshold_;
+    const double before = std::isfinite(last_departure_.value[k]) ? last_departure_.value[k] : 0.0;
+    if (!std::isfinite(start)) arrival_.value[k] = static_cast<float>(t);
+    else if (departure > threshold_)
+      arrival_.value[k] = static_cast<float>(last_time_ + (threshold_ - before) / (departure - before) * (t - last_time_));
+    last_departure_.value[k] = static_cast<float>(departure);
+  }
+  any_ = true;
+  last_time_ = t;
+}
+
+void MapMeasurement::finish(const RowSink& emit) {
+  const auto row = [&](const char* name, const char* unit, const Raster& r, double up) {
+    double low = 1e300, high = -1e300;
+    std::size_t count = 0;
+    for (const float v : r.value) {
+      if (!std::isfinite(v)) continue;
+      low = std::min(low, static_cast<double>(v));
+      high = std::max(high, static_cast<double>(v));
+      ++count;
+    }
+    const double missing = std::numeric_limits<double>::quiet_NaN();
+    emit({std::string(name), std::string(unit), count ? low + up : missing, count ? high + up : missing,
+          static_cast<double>(count), static_cast<double>(count) * r.dx * r.dx});
+  };
+  row("level_max", "m", level_, info_.offset.z);
+  row("depth_max", "m", depth_, 0.0);
+  row("arrival", "s", arrival_, 0.0);
+}
+
+std::vector<GroundLine> MapMeasurement::run_up_lines() const {
+  Raster wet = level_;
+  for (float& v : wet.value) v = std::isfinite(v) ? 1.0f : 0.0f;
+  std::vector<GroundLine> lines;
+  for (const auto& line : contour_lines(wet, 0.5)) {
+    if (line.size() < 8) continue;  // single cells of spray
+    GroundLine on_ground;
+    for (const Point2& p : line) {
+      const int ix = std::clamp(static_cast<int>(std::lround((p.x - ground_.x0) / ground_.dx)), 0, ground_.nx - 1);
+      const int iy = std::clamp(static_cast<int>(std::lround((p.y - ground_.y0) / ground_.dx)), 0, ground_.ny - 1);
+      on_ground.push_back({p.x, p.y, ground_.at(ix, iy)});
+    }
+    lines.push_back(std::move(on_ground));
+  }
+  return lines;
+}
+
+Figure MapMeasurement::figure() const {
+  Figure figure;
+  figure.panel_height_mm = 95.0;
+  const auto add = [&](const char* title, const char* label, const Raster& r, double up) {
+    ColourMap m;
+    m.title = std::string(title) + ", " + info_.name;
+    m.x_label = "easting (m)";
+    m.y_label = "northing (m)";
+    m.value_label = label;
+    m.x0 = r.x0 + info_.offset.x, m.y0 = r.y0 + info_.offset.y, m.dx = r.dx, m.nx = r.nx, m.ny = r.ny;
+    m.value = r.value;
+    for (float& v : m.value) v += static_cast<float>(up);
+    for (const GroundLine& line : run_up_lines()) {
+      Series s;
+      for (const Vec3d& p : line) s.x.push_back(p.x + info_.offset.x), s.y.push_back(p.y + info_.offset.y);
+      s.colour = 6;
+      m.overlay.push_back(std::move(s));
+    }
+    figure.map.push_back(std::move(m));
+  };
+  add("Highest water level", "elevation (m)", level_, info_.offset.z);
+  add("Arrival time", "time (s)", arrival_, 0.0);
+  return figure;
+}
+
+std::string MapMeasurement::summary() const {
+  std::size_t wet = 0, before = 0;
+  for (std::size_t k = 0; k < level_.value.size(); ++k) wet += std::isfinite(level_.value[k]), before += std::isfinite(first_.value[k]);
+  const double area = level_.dx * level_.dx;
+  return "reached " + format_number(static_cast<double>(wet) * area) + " m2, of which " +
+         format_number(static_cast<double>(before) * area) + " m2 were lake";
+}
+
+}  // namespace gdesp::analysis
