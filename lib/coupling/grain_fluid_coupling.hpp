@@ -66,6 +66,13 @@ class GrainFluidCoupling {
   Vec3d reaction_of_grains() const;
   double smoothing_length() const { return law_.smoothing_length; }
 
+  /// The members that a checkpoint keeps (exec/state_archive.hpp).
+  template <class Archive>
+  void archive(Archive& a) {
+    a(grain_fluid_, fluid_grain_, fluid_slots_, grain_slots_, record_, sums_, velocity_before_, porosity_,
+      drag_coefficient_, added_mass_, fluid_velocity_, other_force_, reaction_);
+  }
+
  private:
   Exec exec_;
   Domain domain_;

@@ -62,6 +62,13 @@ class ClusterList {
   ClusterListView view() const;
   std::size_t entries() const { return used_entries_; }
 
+  /// The members that a checkpoint keeps (exec/state_archive.hpp).
+  template <class Archive>
+  void archive(Archive& a) {
+    a(tile_size_, used_entries_, begin_, count_);
+    a.prefix(entries_, used_entries_);
+  }
+
  private:
   Exec exec_{};
   Vec3f tile_size_;

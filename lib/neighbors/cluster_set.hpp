@@ -53,6 +53,10 @@ class ClusterSet {
   const Index* source() const { return source_.data(); }
   CellGridView view() const;
 
+  /// The members that a checkpoint keeps (exec/state_archive.hpp).
+  template <class Archive>
+  void archive(Archive& a) { a(slots_, particles_, lost_, source_, tile_slot_, cell_begin_, cluster_tile_); }
+
  private:
   Exec exec_{};
   Domain domain_;

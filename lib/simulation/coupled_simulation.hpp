@@ -22,8 +22,14 @@ class CoupledSimulation final : public Simulation {
   BoundaryTable boundary() override { return fluid_.wall_table(); }
   GrainTable grains() override;
   std::vector<BodyPose> bodies() override;
+  double last_time_step() const override { return last_dt_; }
+  std::string limited_by() const override { return limited_by_; }
+  void save(std::ostream& out) override;  // checkpoint.cpp
+  void load(std::istream& in) override;
 
  private:
+  template <class Archive>
+  void archive(Archive& a);
   double choose_step(double end);
   void make_room_for(double dt);
   void fluid_split_step(float dt);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <iosfwd>
 #include <memory>
 #include <string>
 #include <vector>
@@ -52,6 +53,13 @@ class Simulation {
   virtual BoundaryTable boundary() = 0;
   virtual GrainTable grains() = 0;
   virtual std::vector<BodyPose> bodies() = 0;
+  /// s, and what bound it: of the step just taken.
+  virtual double last_time_step() const = 0;
+  virtual std::string limited_by() const = 0;
+  /// The complete state as bytes. A simulation made from the same input on the same kind of device and loaded with it
+  /// goes on bit for bit as the saved one. load() throws Error(input) when the bytes are not such a state.
+  virtual void save(std::ostream& out) = 0;
+  virtual void load(std::istream& in) = 0;
 
   void advance_to(double end) {
     while (time() < end) step(end);
