@@ -85,20 +85,22 @@ void write_block(std::ostream& out, const std::string& name, const Series& s) {
   out << "EOD\n";
 }
 
-std::string curve(const std::string& block, const Series& s, int number) {
+// `alone`: the only line of its panel, drawn solid whatever its colour.
+std::string curve(const std::string& block, const Series& s, int number, bool alone = false) {
   const int c = (s.colour >= 0 ? s.colour : number) % colours;
+  const char* const dash = alone ? "1" : dashes[c];
   std::ostringstream out;
   const std::string title = s.label.empty() ? " notitle" : " title " + quoted(s.label);
   const std::string colour = std::string(" lc rgb '") + palette[c] + "'";
   const std::string point = colour + " pt " + std::to_string(marks[c]) + " ps 0.7";
   switch (s.style) {
-    case MarkStyle::line: out << "$" << block << " with lines lw 2" << colour << " dt " << dashes[c]; break;
+    case MarkStyle::line: out << "$" << block << " with lines lw 2" << colour << " dt " << dash; break;
     case MarkStyle::dashes: out << "$" << block << " with lines lw 1.2 dt '-'" << colour; break;
     case MarkStyle::points:
       if (s.low.empty()) out << "$" << block << " with points" << point;
       else out << "$" << block << " using 1:2:3:4 with yerrorbars" << point;
       break;
-    case MarkStyle::line_points: out << "$" << block << " with linespoints lw 1.5" << point << " dt " << dashes[c]; break;
+    case MarkStyle::line_points: out << "$" << block << " with linespoints lw 1.5" << point << " dt " << dash; break;
     case MarkStyle::band: out << "$" << block << " using 1:3:4 with filledcurves" << colour; break;
     case MarkStyle::impulses: out << "$" << block << " with impulses lw 2" << colour; break;
   }
@@ -159,7 +161,7 @@ void write_panel(std::ostream& out, const Panel& p, int index) {
     }
     if (!any) continue;
     write_block(out, block, p.series[k]);
-    command += (command.empty() ? "plot " : ", \\\n  ") + curve(block, p.series[k], static_cast<int>(k));
+    command += (command.empty() ? "plot " : ", \\\n  ") + curve(block, p.series[k], static_cast<int>(k), p.series.size() == 1);
   }
   out << (command.empty() ? "plot NaN notitle" : command) << "\n";
 }
@@ -168,8 +170,8 @@ void write_map(std::ostream& out, const ColourMap& m, int index) {
   out << "$m" << index << " << EOD\n";
   for (int iy = 0; iy < m.ny; ++iy) {
     for (int ix = 0; ix < m.nx; ++ix) {
-      out << format_number(m.x0 + ix * m.dx) << ' ' << format_number(m.y0 + iy * m.dx) << ' '
-          << format_number(m.value[static_cast<std::size_t>(iy) * m.nx + ix]) << '\n';
+      const float v = m.value[static_cast<std::size_t>(iy) * m.nx + ix];
+      out << (ix > 0 ? " " : "") << (std::isfinite(v) ? format_number(v) : "NaN");
     }
     out << '\n';
   }
@@ -181,11 +183,12 @@ void write_map(std::ostream& out, const ColourMap& m, int index) {
   for (std::size_t k = 0; k < m.overlay.size(); ++k) {
     write_block(out, "m" + std::to_string(index) + "s" + std::to_string(k), m.overlay[k]);
   }
-  out << "plot $m" << index << " using 1:2:3 with image notitle";
+  out << "unset datafile missing\nplot $m" << index << " matrix using (" << m.x0 << "+$1*" << m.dx << "):(" << m.y0
+      << "+$2*" << m.dx << "):3 with image notitle";
   for (std::size_t k = 0; k < m.overlay.size(); ++k) {
     out << ", \\\n  " << curve("m" + std::to_string(index) + "s" + std::to_string(k), m.overlay[k], static_cast<int>(k) + 6);
   }
-  out << "\n";
+  out << "\nset datafile missing 'nan'\n";
 }
 
 std::string script(const Figure& f, const std::string& kind, const std::string& output) {
@@ -196,6 +199,7 @@ std::string script(const Figure& f, const std::string& kind, const std::string& 
                         (f.title.empty() ? 0.0 : 9.0);
   out << terminal(kind, f.width_mm, height) << "set output " << quoted(output) << "\n";
   write_common(out);
+  if (f.panel.size() > 1) out << "set lmargin 11\n";  // the axes of stacked panels stand in one line
   if (rows > 1 || !f.title.empty()) {
     out << "set multiplot layout " << rows << ",1" << (f.title.empty() ? "" : " title " + quoted(f.title) + " font ',12'")
         << "\n";

@@ -22,6 +22,8 @@ po::options_description own_options() {
   own.add_options()("y", po::value<std::string>()->value_name("COLUMN"), "our y");
   own.add_options()("ref-x", po::value<std::string>()->value_name("COLUMN"), "the reference's x (default: as ours)");
   own.add_options()("ref-y", po::value<std::string>()->value_name("COLUMN"), "the reference's y (default: as ours)");
+  own.add_options()("scale-x", po::value<double>()->value_name("F")->default_value(1.0, "1"), "our x is multiplied by this (seconds to a paper's time)");
+  own.add_options()("scale-y", po::value<double>()->value_name("F")->default_value(1.0, "1"), "our y is multiplied by this");
   own.add_options()("low", po::value<std::string>()->value_name("COLUMN"), "lower end of the reference's band");
   own.add_options()("high", po::value<std::string>()->value_name("COLUMN"), "upper end of the reference's band");
   own.add_options()("where", po::value<Texts>()->value_name("COLUMN=VALUE"), "rows of our table; may be repeated");
@@ -75,8 +77,8 @@ int run_compare(const std::vector<std::string>& arguments) {
       "its sign, and where); also as a share of the reference's range; and the share of points inside the\n"
       "reference's band. Points outside our range are left out, their number is said.\n";
   if (!line.parse(arguments, definition,
-                  "surge-analyze front dam.run | surge-analyze compare - data/reference/martin_moyce_1952.csv --x 't*' --y 'x*'"
-                  " --ref-x T --ref-y value --ref-where series=front_Z", "table")) {
+                  "surge-analyze gauge dam.run | surge-analyze compare - data/reference/lobovsky_2014_h300_pressure.csv"
+                  " --y pressure --where gauge=sensor2 --scale-x 5.718 --scale-y 3.408e-4 --ref-x t_star --ref-y p_median --low p_low --high p_high", "table")) {
     return 0;
   }
   const Texts files = line.has("table") ? line.get<Texts>("table") : Texts{};
@@ -89,6 +91,8 @@ int run_compare(const std::vector<std::string>& arguments) {
   const std::string x = line.get<std::string>("x"), y = line.get<std::string>("y");
   analysis::Curve ours{table.numbers(x), table.numbers(y), {}, {}};
   analysis::Curve reference{reference_table.numbers(text("ref-x", x)), reference_table.numbers(text("ref-y", y)), {}, {}};
+  for (double& value : ours.x) value *= line.get<double>("scale-x");
+  for (double& value : ours.y) value *= line.get<double>("scale-y");
   if (line.has("low") != line.has("high")) throw Error(ErrorKind::usage, "compare: --low and --high go together");
   if (line.has("low")) {
     reference.low = reference_table.numbers(line.get<std::string>("low"));

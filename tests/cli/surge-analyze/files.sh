@@ -1,0 +1,63 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Maps that a GIS opens in place, surfaces, plots, the report; comparison, convergence, trade-off.
+. "$(dirname "$0")/common.sh"
+"$MAKE_RUN" v.case v.run 8 5 >/dev/null || exit 1
+valid_json() { python3 -m json.tool "$1" >/dev/null || fail "$1 is no JSON"; }
+
+check "map" 0 "$ANALYZE" map v.run -o maps/v
+if command -v gdalinfo >/dev/null; then
+  gdalinfo -stats maps/v_level_max.tif >info || fail "GDAL does not open the map"
+  says info "NoData Value=-9999"
+  grep -q "Origin = (567848" info || fail "map is not in place: $(grep Origin info)"
+  near "$(sed -n 's/.*STATISTICS_MAXIMUM=//p' info)" 2137.9 8 "highest level"
+fi
+valid_json maps/v_run_up_line.geojson
+grep -q '567\|568' maps/v_run_up_line.geojson || fail "run-up line is not in the terrain's coordinates"
+check "ESRI ASCII" 0 "$ANALYZE" map v.run -o maps/a --ascii --cell 16 --plot maps/a.png
+says maps/a_arrival.asc "cellsize     16"
+[ -s maps/a.png ] || fail "no plot of the map"
+
+check "surface" 0 "$ANALYZE" surface v.run -o s --vdb --every 4
+[ -s s/surface_00001.vtp ] && [ -s s/surface_00001.vdb ] || fail "surface files missing"
+near "$(column out 'volume[m3]' | head -1)" 288000 60000 "volume of the lake (dp = 8 m: four layers)"
+
+for kind in svg png pdf; do
+  check "plot $kind" 0 "$ANALYZE" runup v.run --plot p.$kind
+  [ "$(stat -c %s p.$kind)" -gt 3000 ] || fail "p.$kind is too small"
+done
+python3 -c 'import xml.dom.minidom as m; m.parse("p.svg")' || fail "SVG is not well-formed"
+
+check "report" 0 "$ANALYZE" report v.run -o r.html
+says r.html "Run-up"
+says r.html "How to reproduce"
+grep -qE '(src|href)="https?:' r.html && fail "the report needs the network"
+grep -q 'data:image/svg' r.html || fail "the report has no figures"
+
+printf 't[s],x[m]\n0,0\n1,1\n2,2\n' >ours.csv
+printf '# source\ntime,place,low,high\n0.5,0.4,0.3,0.6\n1.5,1.6,1.55,1.7\n9,9,8,10\n' >reference.csv
+check "compare" 0 "$ANALYZE" compare ours.csv reference.csv --y x --ref-x time --ref-y place --low low --high high --plot c.svg
+near "$(column out points)" 2 0 "points"
+near "$(column out rms)" 0.1 1e-6 "RMS"
+near "$(column out bias)" 0 1e-6 "bias"
+near "$(column out 'inside_band[%]')" 50 1e-6 "inside the band"
+"$ANALYZE" front v.run 2>/dev/null | "$ANALYZE" compare - reference.csv --y x_tip --ref-x time --ref-y place >out 2>err || fail "compare from a pipe"
+
+printf 'dp,value\n4,1.16\n2,1.04\n1,1.01\n' >runs.csv
+check "converge" 0 "$ANALYZE" converge --table runs.csv --value value --plot g.svg
+near "$(column out order)" 2 1e-3 "order"
+near "$(column out extrapolated)" 1 1e-3 "extrapolated"
+printf 'dp,value\n4,1.1\n2,1.3\n1,1.2\n' >bad.csv
+check "converge refuses" 4 "$ANALYZE" converge --table bad.csv --value value
+says out "oscillating"
+says err "do not converge"
+
+printf 'name\terror[%%]\tcost[s/s]\tgroup\nA\t1\t10\tus\nB\t5\t20\tthem\nC\t8\t2\tthem\n' >points.tsv
+check "tradeoff" 0 "$ANALYZE" tradeoff --points points.tsv --plot t.svg
+[ "$(column out pareto | tr '\n' ' ')" = "yes no yes " ] || fail "Pareto front: $(column out pareto | tr '\n' ' ')"
+
+if [ -n "${DISPLAY:-}" ] || command -v xvfb-run >/dev/null; then
+  check "render" 0 "$ANALYZE" render v.run -o r.png --size 400,300 --time 5
+  [ "$(head -c 4 r.png | tail -c 3)" = PNG ] || fail "no picture"
+fi
+finish
