@@ -30,6 +30,7 @@ void add_box(FileReport& r, const Box& b) {
 /// The power of ten that all coordinates of an axis are multiples of, when that is coarse against the mesh's edges: the mark of a
 /// file written with too few digits.
 void find_rounding(FileReport& r, const TriangleMesh& mesh) {
+  if (mesh.vertex.size() < 100) return;   // a few corners on round numbers are drawn, not measured
   const double edge = std::sqrt(surface_area(mesh) / std::max<std::size_t>(1, mesh.triangle.size()));
   const Vec3d size = extent(bounds(mesh));
   double quantum[2] = {0.0, 0.0};

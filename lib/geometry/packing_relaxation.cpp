@@ -4,18 +4,21 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 
 namespace gdesp::geometry {
 namespace {
 
 constexpr double tolerance = 1e-4;        // of the diameter: overlaps below this count as none
 constexpr double inflation = 1.003;       // grains are moved apart as if they were this much larger
-constexpr double step = 0.2;              // share of the summed overlap moved in one iteration
+constexpr double step = 0.09;             // share of the summed overlap added to the displacement in one iteration
 constexpr double memory = 0.85;           // of the last displacement
 constexpr double wall_weight = 1.5;
 constexpr double longest_step = 0.1;      // of the diameter, in one iteration
-constexpr int most_iterations = 4000;
-constexpr int patience = 1500;            // iterations before grains without room are taken out
+constexpr int most_iterations = 6000;
+constexpr int review = 150;               // iterations between looks at the progress
+constexpr double slow = 0.8;              // the sum of overlaps must fall below this share between two looks, else grains go
+constexpr std::size_t worth_threads = 4000;   // grains; fewer are moved by one thread
 
 /// Pairs and walls within reach, kept while nothing has moved by half the skin.
 class Vicinity {
@@ -27,7 +30,7 @@ class Vicinity {
   }
   bool is_stale(const PackingState& s, double limit) const {
     bool stale = false;
-#pragma omp parallel for reduction(|| : stale)
+#pragma omp parallel for reduction(|| : stale) if (s.position.size() > worth_threads)
     for (std::size_t i = 0; i < s.position.size(); ++i) {
       const Vec3d d = s.position[i] - reference_[i];
       stale = stale || dot(d, d) > limit * limit;
@@ -80,11 +83,11 @@ class Vicinity {
       }
     };
     first.assign(n + 1, 0);
-#pragma omp parallel for schedule(static, 1024)
+#pragma omp parallel for schedule(static, 1024) if (n > worth_threads)
     for (std::size_t i = 0; i < n; ++i) visit(i, [&](std::uint32_t) { ++first[i + 1]; });
     for (std::size_t i = 0; i < n; ++i) first[i + 1] += first[i];
     other.resize(first[n]);
-#pragma omp parallel for schedule(static, 1024)
+#pragma omp parallel for schedule(static, 1024) if (n > worth_threads)
     for (std::size_t i = 0; i < n; ++i) {
       std::size_t at = first[i];
       visit(i, [&](std::uint32_t j) { other[at++] = j; });
@@ -94,7 +97,7 @@ class Vicinity {
   void build_walls(const PackingState& s) {
     const std::size_t n = s.position.size();
     std::vector<std::vector<std::int32_t>> near(n);
-#pragma omp parallel for schedule(static, 256)
+#pragma omp parallel for schedule(static, 256) if (n > worth_threads)
     for (std::size_t i = 0; i < n; ++i) walls_->within(s.position[i], 0.5 * inflation * s.diameter[i] + skin(), near[i]);
     first_wall.assign(n + 1, 0);
     for (std::size_t i = 0; i < n; ++i) first_wall[i + 1] = first_wall[i] + near[i].size();
@@ -164,20 +167,17 @@ void keep(PackingState& s, const std::vector<bool>& wanted) {
   s.diameter.resize(n);
 }
 
-/// Takes out the grains with the worst overlaps, at most one in two hundred.
-bool take_out_tightest(PackingState& s, const std::vector<double>& worst) {
+/// Takes out the grains with the worst overlaps: a quarter of those that overlap, at most one in fifty of all.
+void take_out_tightest(PackingState& s, const std::vector<double>& worst) {
   std::vector<std::size_t> tight;
   for (std::size_t i = 0; i < worst.size(); ++i) {
     if (worst[i] > tolerance) tight.push_back(i);
   }
-  const std::size_t most = std::max<std::size_t>(1, s.position.size() / 200);
   std::sort(tight.begin(), tight.end(), [&](std::size_t a, std::size_t b) { return worst[a] != worst[b] ? worst[a] > worst[b] : a < b; });
-  if (tight.empty()) return false;
-  if (tight.size() > most) tight.resize(most);
+  tight.resize(std::min((tight.size() + 3) / 4, s.position.size() / 50 + 1));
   std::vector<bool> wanted(s.position.size(), true);
   for (const std::size_t i : tight) wanted[i] = false;
   keep(s, wanted);
-  return true;
 }
 
 }  // namespace
@@ -187,31 +187,36 @@ int relax_overlaps(PackingState& s, const TriangleTree& walls, double largest) {
   std::vector<double> worst(s.position.size());
   std::vector<Push> push(s.position.size());
   Vicinity vicinity(s, walls, largest);
+  double last_sum = 1e300;
   int iteration = 0;
-  for (int since_removal = 0; iteration < most_iterations && !s.position.empty(); ++iteration, ++since_removal) {
+  for (; iteration < most_iterations && !s.position.empty(); ++iteration) {
     const std::size_t n = s.position.size();
     double largest_now = 0.0;
-#pragma omp parallel for schedule(static, 1024) reduction(max : largest_now)
+#pragma omp parallel for schedule(static, 1024) reduction(max : largest_now) if (n > worth_threads)
     for (std::size_t i = 0; i < n; ++i) {
       push[i] = push_on(i, s, vicinity, walls);
       worst[i] = push[i].worst;
       largest_now = std::max(largest_now, push[i].worst);
     }
     if (largest_now < tolerance) break;
-    if (since_removal > patience) {
-      if (!take_out_tightest(s, worst)) break;
-      motion.assign(s.position.size(), {});
-      worst.resize(s.position.size());
-      push.resize(s.position.size());
-      vicinity = Vicinity(s, walls, largest);
-      since_removal = patience - 100;
-      continue;
+    if (iteration % review == review - 1) {
+      const double sum = std::accumulate(worst.begin(), worst.end(), 0.0);
+      const bool stalled = sum > slow * last_sum;
+      last_sum = sum;
+      if (stalled) {
+        take_out_tightest(s, worst);
+        motion.assign(s.position.size(), {});
+        worst.resize(s.position.size());
+        push.resize(s.position.size());
+        vicinity = Vicinity(s, walls, largest);
+        continue;
+      }
     }
-#pragma omp parallel for schedule(static, 1024)
+#pragma omp parallel for schedule(static, 1024) if (n > worth_threads)
     for (std::size_t i = 0; i < n; ++i) {
       Vec3d m = motion[i] * memory;
       if (dot(m, push[i].sum) < 0.0) m = m * 0.5;
-      m += push[i].sum * (step * (1.0 - memory) * 3.0);
+      m += push[i].sum * step;
       const double length = norm(m), limit = longest_step * s.diameter[i];
       motion[i] = length > limit ? m * (limit / length) : m;
       if (s.dimensions == 2) motion[i].y = 0.0;

@@ -47,9 +47,9 @@ struct Colour { int r, g, b; };
 /// A picture of coloured cells, axes in scene coordinates.
 class Image {
  public:
-  Image(double u0, double v0, double u1, double v1, double cell) : u0_(u0), v0_(v0), cell_(cell) {
-    nu_ = std::max(1, static_cast<int>((u1 - u0) / cell) + 1);
-    nv_ = std::max(1, static_cast<int>((v1 - v0) / cell) + 1);
+  Image(double u0, double v0, double u1, double v1, double cell) : u0_(u0 - 0.5 * cell), v0_(v0 - 0.5 * cell), cell_(cell) {
+    nu_ = std::max(1, static_cast<int>((u1 - u0_) / cell) + 1);
+    nv_ = std::max(1, static_cast<int>((v1 - v0_) / cell) + 1);
     colour_.assign(static_cast<std::size_t>(nu_) * nv_, {255, 255, 255});
     rank_.assign(colour_.size(), -1e300);
   }

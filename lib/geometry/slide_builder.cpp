@@ -68,6 +68,7 @@ PackingRequest request_of(const Layout& layout, std::size_t index) {
     return subtract(subtract(inside, static_solid(layout.parts, columns)), body_solid(layout.parts, layout.scene, columns));
   };
   r.contains = [&layout, &shape](const std::vector<Vec3d>& points) { return in_space(layout, shape, points); };
+  r.body = shape.mesh;
   r.walls = bounding_surfaces(layout, shape, 2.0 * largest);
   r.box = bounds(shape.mesh);
   r.diameter = slide.diameter;
@@ -120,12 +121,12 @@ SlideReport add_granular_slide(const Layout& layout, std::size_t index, GrainTab
 double free_volume(const Layout& layout, const SolidPart& body) {
   const Box box = bounds(body.mesh);
   const Vec3d size = extent(box);
-  ColumnGrid columns = covering_columns(box, std::max(size.x, layout.scene.dimensions == 2 ? 0.0 : size.y) / 300.0);
-  if (layout.scene.dimensions == 2) columns.y0 = 0.0, columns.ny = 1;
-  const ColumnIntervals inside = subtract(solid_intervals(body.mesh, columns), static_solid(layout.parts, columns));
-  double sum = 0.0;
-  for (const auto& i : inside.interval) sum += i.upper - i.lower;
-  return sum * columns.spacing * (layout.scene.dimensions == 2 ? 1.0 : columns.spacing);
+  const bool flat = layout.scene.dimensions == 2;
+  ColumnGrid columns = covering_columns(box, (flat ? size.x : std::max(size.x, size.y)) / 800.0);
+  if (flat) columns.y0 = 0.0, columns.ny = 1;
+  const ColumnIntervals whole = solid_intervals(body.mesh, columns);
+  const double all = volume(whole, columns), part = volume(subtract(whole, static_solid(layout.parts, columns)), columns);
+  return all > 0.0 ? signed_volume(body.mesh) / (flat ? size.y : 1.0) * part / all : 0.0;
 }
 
 }  // namespace gdesp::geometry

@@ -17,13 +17,21 @@ constexpr double pi = 3.14159265358979323846;
 
 double grain_volume(double d, int dimensions) { return dimensions == 2 ? pi * d * d / 4.0 : pi * d * d * d / 6.0; }
 
-double space_volume(const PackingRequest& r, double spacing) {
-  ColumnGrid grid = covering_columns(r.box, spacing);
+/// The part of the body's volume that is free, by columns; the body's own volume is known exactly.
+double space_volume(const PackingRequest& r) {
+  const Vec3d size = extent(r.box);
+  const double widest = r.dimensions == 2 ? size.x : std::max(size.x, size.y);
+  ColumnGrid grid = covering_columns(r.box, widest / 800.0);
   if (r.dimensions == 2) grid.y0 = 0.0, grid.ny = 1;
-  const ColumnIntervals space = r.space(grid);
-  double sum = 0.0;
-  for (const auto& i : space.interval) sum += i.upper - i.lower;
-  return sum * spacing * (r.dimensions == 2 ? 1.0 : spacing);
+  const auto length = [](const ColumnIntervals& c) {
+    double sum = 0.0;
+    for (const auto& i : c.interval) sum += i.upper - i.lower;
+    return sum;
+  };
+  const double whole = length(solid_intervals(r.body, grid)), part = length(r.space(grid));
+  if (!(whole > 0.0)) return 0.0;
+  const double exact = signed_volume(r.body) / (r.dimensions == 2 ? size.y : 1.0);
+  return exact * part / whole;
 }
 
 /// Diameters that together hold the solid's share of the volume, in random order.
@@ -117,8 +125,7 @@ Packing pack_spheres(const PackingRequest& r) {
     smallest = largest = mean = r.sieve.front().diameter;
     for (const auto& c : r.sieve) smallest = std::min(smallest, c.diameter), largest = std::max(largest, c.diameter);
   }
-  const Vec3d size = extent(r.box);
-  out.volume = space_volume(r, std::max(std::min(0.5 * mean, std::min(size.x, size.z) / 100.0), std::max(size.x, size.y) / 3000.0));
+  out.volume = space_volume(r);
   std::vector<float> diameters = draw_diameters(r, out.volume * (1.0 - r.porosity), random);
   const TriangleTree walls(r.walls);
   const double inset = 0.4 * smallest;

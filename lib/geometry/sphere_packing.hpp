@@ -18,6 +18,7 @@ struct PackingRequest {
   std::function<ColumnIntervals(const ColumnGrid&)> space;
   /// Per point, whether it lies there; for the last check.
   std::function<std::vector<bool>(const std::vector<Vec3d>&)> contains;
+  TriangleMesh body;               ///< the closed body whose free part the space is
   TriangleMesh walls;              ///< every surface that bounds the space, its normals into the space
   Box box;                         ///< m, around the space
   double diameter = 0.0;           ///< m

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/case_builder.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "support.hpp"
+
+namespace gdesp::geometry {
+namespace {
+
+using testing::field;
+using testing::Folder;
+using testing::input_error;
+
+Scene tank_scene(double dp) {
+  Scene s;
+  s.dp = dp;
+  Wall tank;
+  tank.name = "tank";
+  tank.tank = Box{{0, 0, 0}, {0.4, 0.2, 0.3}};
+  tank.open = {"top"};
+  s.walls = {tank};
+  FluidFill fill;
+  fill.kind = "box";
+  fill.box = Box{{0, 0, 0}, {0.4, 0.2, 0.2}};
+  s.fluid.fill = {fill};
+  return s;
+}
+
+TEST(CaseBuilder, TankIsFilledExactlyAndWalledThreeDeep) {
+  BuildReport report;
+  const Case c = build_case(tank_scene(0.02), report);
+  EXPECT_EQ(c.fluid.position.size(), 20u * 10u * 10u);
+  EXPECT_EQ(c.boundary.position.size(), 26u * 16u * 18u - 20u * 10u * 15u);   // shell below the rim
+  std::set<int> depths;
+  for (std::size_t k = 0; k < c.boundary.position.size(); ++k) {
+    const Vec3d& p = c.boundary.position[k];
+    const Vec3f n = c.boundary.normal[k];
+    EXPECT_NEAR(norm(n), 1.0f, 1e-5f);
+    // depth along the normal leads to the inner face
+    const Vec3d q = p + static_cast<Vec3d>(n) * static_cast<double>(c.boundary.depth[k]);
+    EXPECT_GE(q.x, -1e-6);
+    EXPECT_LE(q.x, 0.4 + 1e-6);
+    EXPECT_GE(q.z, -1e-6);
+    if (p.x > 0 && p.x < 0.4 && p.y > 0 && p.y < 0.2) depths.insert(static_cast<int>(std::lround(c.boundary.depth[k] / 0.02 * 2)));
+  }
+  EXPECT_EQ(depths, (std::set<int>{1, 3, 5}));   // dp/2, 3dp/2, 5dp/2 under the floor
+  EXPECT_TRUE(report.notes.warnings.empty());
+  EXPECT_EQ(c.walls.triangle.size(), 10u);
+}
+
+TEST(CaseBuilder, EverythingLiesInTheDomain) {
+  BuildReport report;
+  const Case c = build_case(tank_scene(0.02), report);
+  for (const auto* list : {&c.fluid.position, &c.boundary.position}) {
+    for (const auto& p : *list) {
+      for (int a = 0; a < 3; ++a) {
+        ASSERT_GT(p[a], c.domain.lower[a]);
+        ASSERT_LT(p[a], c.domain.upper[a]);
+      }
+    }
+  }
+}
+
+TEST(CaseBuilder, TwoDimensionsAreOneLayer) {
+  Scene s = tank_scene(0.02);
+  s.dimensions = 2;
+  BuildReport report;
+  const Case c = build_case(s, report);
+  EXPECT_EQ(c.fluid.position.size(), 20u * 10u);
+  EXPECT_EQ(c.boundary.position.size(), 26u * 18u - 20u * 15u);
+  for (const auto& p : c.boundary.position) EXPECT_EQ(p.y, 0.0);
+  EXPECT_NEAR(report.fills[0].volume, 0.08, 1e-12);
+}
+
+TEST(CaseBuilder, UnevenTankIsToldAbout) {
+  BuildReport report;
+  build_case(tank_scene(0.03), report);
+  ASSERT_FALSE(report.notes.warnings.empty());
+  EXPECT_MENTIONS(report.notes.warnings[0], "particle spacings");
+}
+
+TEST(CaseBuilder, GateIsABodyThatKeepsTheWaterOut) {
+  Scene s = tank_scene(0.02);
+  MovingBody gate;
+  gate.name = "gate";
+  gate.shape.box = Box{{0.2, 0, 0}, {0.26, 0.2, 0.3}};
+  gate.velocity = {0, 0, 0.5};
+  gate.start = 0.1;
+  gate.remove_at = 0.4;
+  s.moving = {gate};
+  BuildReport report;
+  const Case c = build_case(s, report);
+  ASSERT_EQ(c.bodies.size(), 1u);
+  EXPECT_EQ(c.bodies[0].motion.remove_at, 0.4);
+  EXPECT_EQ(c.fluid.position.size(), 17u * 10u * 10u);
+  EXPECT_EQ(std::count(c.boundary.body.begin(), c.boundary.body.end(), 1), 3 * 10 * 15);
+  EXPECT_EQ(std::count(c.walls.body.begin(), c.walls.body.end(), 1), 12);
+  EXPECT_GT(c.domain.upper.z, 0.3 + 0.4);   // where it is lifted to within time.end = 1 s
+}
+
+// The same scene at UTM-like coordinates gives the same particles, to a millionth of dp.
+TEST(CaseBuilder, LargeCoordinatesChangeNothing) {
+  const Folder folder;
+  const auto hill = [](double x, double y) { return 0.01 * x + 3.0 * std::sin(0.05 * x) * std::cos(0.04 * y); };
+  Scene near, far;
+  for (auto* s : {&near, &far}) {
+    const double x0 = s == &near ? 0.0 : 1904800.0, y0 = s == &near ? 0.0 : 5794800.0;
+    const std::string name = folder.file(s == &near ? "near.asc" : "far.asc");
+    write_esri_ascii(field(x0, y0, 10.0, 31, 21, [&](double x, double y) { return hill(x - x0, y - y0); }), name, 6);
+    s->dp = 2.0;
+    s->terrain.files = {name};
+    FluidFill fill;
+    fill.level = 0.5;
+    s->fluid.fill = {fill};
+  }
+  BuildReport report;
+  const Case a = build_case(near, report), b = build_case(far, report);
+  EXPECT_GT(norm(b.offset), 1e6);
+  EXPECT_EQ(norm(a.offset), 0.0);
+  ASSERT_EQ(a.fluid.position.size(), b.fluid.position.size());
+  ASSERT_EQ(a.boundary.position.size(), b.boundary.position.size());
+  const Vec3d shift = Vec3d{1904800.0, 5794800.0, 0.0} - b.offset;
+  for (std::size_t k = 0; k < a.boundary.position.size(); ++k) {
+    ASSERT_NEAR(norm(a.boundary.position[k] + shift - b.boundary.position[k]), 0.0, 2e-6);
+    ASSERT_NEAR(a.boundary.depth[k], b.boundary.depth[k], 2e-4);
+  }
+  for (const auto& v : b.walls.vertex) EXPECT_LT(std::abs(v.x), 1000.0);
+}
+
+// Depth and normal of terrain walls against the plane they come from.
+TEST(CaseBuilder, SlopeHasItsTrueDepthAndNormal) {
+  const Folder folder;
+  write_esri_ascii(field(0, 0, 5.0, 21, 11, [](double x, double) { return 0.5 * x; }), folder.file("slope.asc"), 6);
+  Scene s;
+  s.dp = 1.0;
+  s.terrain.files = {folder.file("slope.asc")};
+  BuildReport report;
+  const Case c = build_case(s, report);
+  ASSERT_GT(c.boundary.position.size(), 1000u);
+  const Vec3d n{-0.5 / std::sqrt(1.25), 0, 1.0 / std::sqrt(1.25)};
+  double worst = 0.0;
+  for (std::size_t k = 0; k < c.boundary.position.size(); ++k) {
+    const Vec3d& p = c.boundary.position[k];
+    if (p.x < 5 || p.x > 90 || p.y < 4 || p.y > 46) continue;   // edges of the sheet have other nearest points
+    const double depth = -dot(p, n);
+    worst = std::max(worst, std::abs(std::max(depth, 0.05) - c.boundary.depth[k]));
+    EXPECT_LE(depth, 3.0 + 1e-6);
+    EXPECT_GE(depth, -1e-6);
+    if (depth > 0.01) { EXPECT_GT(dot(static_cast<Vec3d>(c.boundary.normal[k]), n), 0.999); }
+  }
+  EXPECT_LT(worst, 0.1);   // of a voxel
+}
+
+TEST(CaseBuilder, BandMemoryGrowsWithAreaNotVolume) {
+  const Folder folder;
+  write_esri_ascii(field(0, 0, 10.0, 21, 21, [](double x, double y) { return 30.0 * std::sin(0.03 * x) * std::cos(0.02 * y); }), folder.file("t.asc"), 4);
+  Scene s;
+  s.terrain.files = {folder.file("t.asc")};
+  std::size_t voxels[2];
+  for (int k = 0; k < 2; ++k) {
+    s.dp = k ? 2.0 : 4.0;
+    BuildReport report;
+    build_case(s, report);
+    voxels[k] = report.band_voxels;
+  }
+  EXPECT_NEAR(static_cast<double>(voxels[1]) / static_cast<double>(voxels[0]), 4.0, 0.5);
+}
+
+TEST(CaseBuilder, PorousBedHoldsItsShareOfTheWater) {
+  Scene s = tank_scene(0.01);
+  Slide bed;
+  bed.shape.box = Box{{0, 0, 0}, {0.4, 0.2, 0.1}};
+  bed.diameter = 0.02;
+  bed.porosity = 0.5;
+  s.slides = {bed};
+  BuildReport report;
+  const Case c = build_case(s, report, {}, {}, BuildScope::counts_only);
+  std::size_t in_bed = 0;
+  for (const auto& p : c.fluid.position) in_bed += p.z < 0.1;
+  EXPECT_NEAR(static_cast<double>(in_bed), 0.5 * 8000, 0.05 * 8000);
+  EXPECT_EQ(c.fluid.position.size() - in_bed, 8000u);
+}
+
+TEST(CaseBuilder, RigidSlideAndFloatingBox) {
+  Scene s = tank_scene(0.02);
+  Slide block;
+  block.name = "block";
+  block.kind = "rigid";
+  block.shape.box = Box{{0.3, 0.05, 0.22}, {0.38, 0.15, 0.3}};
+  block.density = 2000;
+  s.slides = {block};
+  FloatingBody raft;
+  raft.name = "raft";
+  raft.shape.box = Box{{0.04, 0.04, 0.16}, {0.16, 0.16, 0.24}};
+  raft.density = 500;
+  s.floating = {raft};
+  BuildReport report;
+  const Case c = build_case(s, report);
+  ASSERT_EQ(c.bodies.size(), 2u);
+  EXPECT_EQ(c.bodies[0].kind, BodyKind::free);
+  EXPECT_NEAR(c.bodies[0].mass, 2000 * 0.08 * 0.1 * 0.08, 1e-9);
+  EXPECT_NEAR(c.bodies[1].mass, 500 * 0.12 * 0.12 * 0.08, 1e-9);
+  EXPECT_EQ(c.fluid.position.size(), 2000u - 6u * 6u * 2u);   // the raft's submerged half
+}
+
+TEST(CaseBuilder, MeshBodyThinnerThanDpIsRefused) {
+  const Folder folder;
+  std::ofstream(folder.file("plate.off")) << "OFF\n8 6 0\n0.1 0.05 0.101\n0.2 0.05 0.101\n0.1 0.15 0.101\n0.2 0.15 0.101\n0.1 0.05 0.103\n0.2 0.05 0.103\n0.1 0.15 0.103\n0.2 0.15 0.103\n"
+                                             "4 0 4 6 2\n4 1 3 7 5\n4 0 1 5 4\n4 2 6 7 3\n4 0 2 3 1\n4 4 5 7 6\n";
+  Scene s = tank_scene(0.02);
+  MovingBody plate;
+  plate.name = "plate";
+  plate.kind = "body";
+  plate.shape.mesh = folder.file("plate.off");
+  s.moving = {plate};
+  BuildReport report;
+  EXPECT_MENTIONS(input_error([&] { build_case(s, report); }), "thinner than resolution.dp");
+}
+
+TEST(CaseBuilder, EmptySceneIsAnError) {
+  Scene s;
+  s.dp = 0.1;
+  BuildReport report;
+  EXPECT_MENTIONS(input_error([&] { build_case(s, report); }), "empty");
+}
+
+TEST(CaseBuilder, OffsetOnlyWhereItIsNeeded) {
+  EXPECT_EQ(norm(choose_offset({{0, 0, 0}, {1, 1, 1}}, 3)), 0.0);
+  EXPECT_EQ(norm(choose_offset({{-500, 0, 1500}, {900, 1000, 2300}}, 3)), 0.0);
+  const Vec3d o = choose_offset({{1904800, 5773200, 62}, {1919200, 5794800, 921}}, 3);
+  EXPECT_EQ(o.x, 1900000.0);
+  EXPECT_EQ(o.y, 5770000.0);
+  EXPECT_EQ(o.z, 0.0);
+}
+
+}  // namespace
+}  // namespace gdesp::geometry

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Real terrain and hard meshes that lie beside the repository (../shared/terrain); skipped where they do not.
+#include "geometry/case_builder.hpp"
+#include "geometry/file_check.hpp"
+#include "geometry/raster_reader.hpp"
+#include "support.hpp"
+
+namespace gdesp::geometry {
+namespace {
+
+const std::string terrain = std::string(GDESP_SOURCE_DIR) + "/../shared/terrain/";
+
+#define NEEDS(path) \
+  if (!std::filesystem::exists(terrain + path)) GTEST_SKIP() << "no " << terrain + path
+
+Scene lake(const std::string& file, double level, double dp) {
+  Scene s;
+  s.dp = dp;
+  s.terrain.files = {terrain + file};
+  FluidFill fill;
+  fill.level = level;
+  s.fluid.fill = {fill};
+  return s;
+}
+
+TEST(SharedTerrain, AlpeGeraVolumes) {
+  NEEDS("alpe_gera_it");
+  double last = 1.0;
+  for (const double dp : {16.0, 8.0}) {
+    Scene s = lake("alpe_gera_it/Alpe_Gera_dam_break_no_volume_correction.obj", 2125.0, dp);
+    s.fluid.fill[0].polygon = {{65000, 37400}, {80000, 37400}, {72780, 35070}, {72500, 35150}};
+    s.domain = Box{{72000, 34900, 1900}, {73938, 37409, 2200}};
+    BuildReport report;
+    build_case(s, report);
+    EXPECT_NEAR(report.fills[0].exact_volume, 44.2e6, 0.01 * 44.2e6);
+    const double error = std::abs(report.fills[0].volume / report.fills[0].exact_volume - 1.0);
+    EXPECT_LT(error, 0.01);
+    EXPECT_LE(error, last + 0.002);
+    last = error;
+  }
+}
+
+TEST(SharedTerrain, CampoMoroVolume) {
+  NEEDS("alpe_gera_it");
+  Scene s = lake("alpe_gera_it/Alpe_Gera_dam_break_no_volume_correction.obj", 1953.0, 4.0);
+  s.fluid.fill[0].polygon = {{71245, 34335}, {72045, 34335}, {72045, 33865}, {71245, 33865}};
+  s.domain = Box{{71100, 33700, 1850}, {72200, 34500, 2050}};
+  BuildReport report;
+  build_case(s, report);
+  EXPECT_NEAR(report.fills[0].exact_volume, 0.92e6, 0.01 * 0.92e6);
+  EXPECT_NEAR(report.fills[0].volume, 0.92e6, 0.02 * 0.92e6);
+}
+
+TEST(SharedTerrain, RotomaFromTheMergedBed) {
+  NEEDS("rotoma_nz");
+  Scene s = lake("rotoma_nz/derived_bed_32m.tif", 313.30, 16.0);
+  s.fluid.fill[0].seed = Point2{1913500, 5783500};
+  BuildReport report;
+  build_case(s, report, {}, {}, BuildScope::counts_only);
+  EXPECT_NEAR(report.fills[0].exact_volume, 436e6, 0.01 * 436e6);
+  EXPECT_NEAR(report.fills[0].surface_area, 11.1e6, 0.02 * 11.1e6);
+}
+
+TEST(SharedTerrain, LandlabSlideVolume) {
+  NEEDS("landlab_runout");
+  Scene s;
+  s.dp = 5.0;
+  s.terrain.files = {terrain + "landlab_runout/pre_runout_DEM.asc"};
+  Slide slide;
+  slide.name = "slide";
+  slide.diameter = 2.0;
+  slide.shape.thickness = terrain + "landlab_runout/landslide_depth.asc";
+  slide.shape.polygon = {{361000, 70000}, {362000, 70000}, {362000, 71500}, {361000, 71500}};
+  s.slides = {slide};
+  BuildReport report;
+  build_case(s, report, {}, {}, BuildScope::counts_only);
+  EXPECT_NEAR(report.slides[0].volume, 22481.0, 0.01 * 22481.0);
+}
+
+TEST(SharedTerrain, GzippedUsgsDemAndXyz) {
+  NEEDS("st_helens");
+  const Raster r = read_raster(terrain + "st_helens/SainteHelens.dem.gz", {});
+  EXPECT_EQ(r.driver, "USGSDEM");
+  const Box b = bounds(r.field);
+  EXPECT_NEAR(b.lower.z, 682, 1);
+  EXPECT_NEAR(b.upper.z, 2543, 1);
+  NEEDS("snake_river_canyon");
+  const FileReport stl = check_file(terrain + "snake_river_canyon/AcrossRiver.stl.gz");
+  bool rounding = false;
+  for (const auto& f : stl.found) rounding = rounding || f.find("multiples of 10 m") != std::string::npos;
+  EXPECT_TRUE(rounding) << describe(stl);
+}
+
+TEST(SharedTerrain, DirtyMeshesAreJudgedWithoutACrash) {
+  NEEDS("dirty_meshes");
+  const auto verdict = [](const char* name) { return check_file(terrain + "dirty_meshes/" + name).verdict; };
+  EXPECT_EQ(verdict("cgal__blobby-shuffled.off"), MeshVerdict::repaired);
+  EXPECT_EQ(verdict("cgal__cube-ouvert.off"), MeshVerdict::refused);   // a whole side is missing
+  EXPECT_EQ(verdict("cgal__tetra_intersected_by_triangle.off"), MeshVerdict::refused);
+  EXPECT_EQ(verdict("cgal__bones.off"), MeshVerdict::repaired);
+  EXPECT_NE(verdict("cgal__pig.off"), MeshVerdict::usable);
+}
+
+}  // namespace
+}  // namespace gdesp::geometry

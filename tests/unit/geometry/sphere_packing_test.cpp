@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/sphere_packing.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+
+#include "support.hpp"
+
+namespace gdesp::geometry {
+namespace {
+
+PackingRequest box_request(const Box& box, double diameter, double porosity) {
+  PackingRequest r;
+  r.space = [box](const ColumnGrid& g) { return solid_intervals(box_mesh(box), g); };
+  r.contains = [box](const std::vector<Vec3d>& points) {
+    const auto w = windings(box_mesh(box), points);
+    std::vector<bool> in;
+    for (const int k : w) in.push_back(k > 0);
+    return in;
+  };
+  r.body = r.walls = box_mesh(box);
+  flip(r.walls);
+  r.box = box;
+  r.diameter = diameter;
+  r.porosity = porosity;
+  return r;
+}
+
+/// Brute force over all pairs.
+double worst_overlap(const Packing& p) {
+  double worst = -1.0;
+  for (std::size_t i = 0; i < p.position.size(); ++i) {
+    for (std::size_t j = i + 1; j < p.position.size(); ++j) {
+      const double sum = 0.5 * (p.diameter[i] + p.diameter[j]);
+      worst = std::max(worst, (sum - norm(p.position[i] - p.position[j])) / std::min(p.diameter[i], p.diameter[j]));
+    }
+  }
+  return worst;
+}
+
+double most_outside(const Packing& p, const Box& b) {
+  double worst = -1.0;
+  for (std::size_t i = 0; i < p.position.size(); ++i) {
+    for (int a = 0; a < 3; ++a) {
+      const double r = 0.5 * p.diameter[i];
+      worst = std::max({worst, b.lower[a] - (p.position[i][a] - r), p.position[i][a] + r - b.upper[a]});
+    }
+  }
+  return worst;
+}
+
+TEST(SpherePacking, PorosityIsMetWithoutOverlapAndWithinTheWalls) {
+  const Box box{{0, 0, 0}, {1.0, 1.2, 0.9}};
+  for (const double porosity : {0.45, 0.42}) {
+    const Packing p = pack_spheres(box_request(box, 0.06, porosity));
+    EXPECT_NEAR(p.porosity, porosity, 0.005);
+    EXPECT_LT(worst_overlap(p), 1.1e-4);
+    EXPECT_LT(most_outside(p, box), 1.1e-4 * 0.06);
+    EXPECT_EQ(p.left_out, 0u);
+  }
+}
+
+TEST(SpherePacking, SameOnAnyNumberOfThreadsAnotherForAnotherSeed) {
+  const Box box{{0, 0, 0}, {0.5, 0.5, 0.5}};
+  PackingRequest r = box_request(box, 0.05, 0.45);
+  const int threads = omp_get_max_threads();
+  omp_set_num_threads(1);
+  const Packing a = pack_spheres(r);
+  omp_set_num_threads(3);
+  const Packing b = pack_spheres(r);
+  omp_set_num_threads(threads);
+  ASSERT_EQ(a.position.size(), b.position.size());
+  for (std::size_t k = 0; k < a.position.size(); ++k) EXPECT_TRUE(a.position[k] == b.position[k]);
+  r.seed = 2;
+  EXPECT_FALSE(pack_spheres(r).position[0] == a.position[0]);
+}
+
+TEST(SpherePacking, SieveSharesAreByMass) {
+  const Box box{{0, 0, 0}, {1, 1, 1}};
+  PackingRequest r = box_request(box, 0.0, 0.42);
+  r.sieve = {{0.06, 0.5}, {0.12, 0.5}};
+  const Packing p = pack_spheres(r);
+  double small = 0.0, large = 0.0;
+  for (const float d : p.diameter) (d < 0.09f ? small : large) += static_cast<double>(d) * d * d;
+  EXPECT_NEAR(small / (small + large), 0.5, 0.02);
+  EXPECT_LT(worst_overlap(p), 1.1e-4);
+}
+
+TEST(SpherePacking, NormalDiametersHaveTheirSpread) {
+  const Box box{{0, 0, 0}, {1, 1, 1}};
+  PackingRequest r = box_request(box, 0.07, 0.44);
+  r.deviation = 0.007;
+  const Packing p = pack_spheres(r);
+  double mean = 0.0, square = 0.0;
+  for (const float d : p.diameter) mean += d, square += static_cast<double>(d) * d;
+  mean /= static_cast<double>(p.diameter.size());
+  EXPECT_NEAR(mean, 0.07, 0.001);
+  EXPECT_NEAR(std::sqrt(square / static_cast<double>(p.diameter.size()) - mean * mean), 0.007, 0.001);
+}
+
+TEST(SpherePacking, DiscsInThePlane) {
+  const Box box{{0, -1, 0}, {1, 1, 1}};
+  PackingRequest r = box_request(box, 0.04, 0.25);
+  r.dimensions = 2;
+  const Packing p = pack_spheres(r);
+  EXPECT_NEAR(p.porosity, 0.25, 0.01);
+  EXPECT_LT(worst_overlap(p), 1.1e-4);
+  for (const auto& q : p.position) EXPECT_EQ(q.y, 0.0);
+}
+
+// What cannot be packed is told, not squeezed: the porosity reached is reported and nothing overlaps.
+TEST(SpherePacking, TooDenseLeavesGrainsOut) {
+  const Box box{{0, 0, 0}, {0.3, 0.3, 0.3}};
+  const Packing p = pack_spheres(box_request(box, 0.06, 0.3));
+  EXPECT_GT(p.left_out, 0u);
+  EXPECT_GT(p.porosity, 0.36);
+  EXPECT_LT(worst_overlap(p), 1.1e-4);
+}
+
+TEST(SpherePacking, NothingFits) {
+  EXPECT_MENTIONS(testing::input_error([] { pack_spheres(box_request({{0, 0, 0}, {1, 1, 1}}, 3.0, 0.4)); }), "no grain");
+}
+
+}  // namespace
+}  // namespace gdesp::geometry
