@@ -57,12 +57,14 @@ struct VerletPredict {
 };
 
 struct VerletCorrect {
-  FluidStateView state;
+  FluidStateView state;  // without external
+  const Vec3f* external;
   const std::uint32_t* id;
   float dt;
   GDESP_HD void operator()(Index s) const {
     if (id[s] == no_particle) return;
     state.velocity[s] += state.acceleration(s) * (0.5f * dt);
+    if (external) state.velocity[s] += external[s] * dt;  // whole here: momentum balances step by step
     state.density[s] += state.rate_at(s, 3) * (0.5f * dt);
   }
 };
@@ -227,12 +229,17 @@ void FluidSystem<Exec>::kick_drift(float dt, float dt_position) {
 
 template <class Exec>
 void FluidSystem<Exec>::verlet_predict(float dt) {
-  exec::parallel_for(exec_, "sph::verlet_predict", slots(), VerletPredict{state_view(), packer(), dt});
+  FluidStateView state = state_view();
+  state.external = nullptr;
+  exec::parallel_for(exec_, "sph::verlet_predict", slots(), VerletPredict{state, packer(), dt});
 }
 
 template <class Exec>
 void FluidSystem<Exec>::verlet_correct(float dt) {
-  exec::parallel_for(exec_, "sph::verlet_correct", slots(), VerletCorrect{state_view(), id_.data(), dt});
+  FluidStateView state = state_view();
+  state.external = nullptr;
+  exec::parallel_for(exec_, "sph::verlet_correct", slots(),
+                     VerletCorrect{state, coupled_ ? external_.data() : nullptr, id_.data(), dt});
 }
 
 template <class Exec>

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Grains in water against exact answers.
+// @eq coupling.porosity
+// @eq coupling.buoyancy
+// @eq coupling.reaction
+// @eq coupling.added-mass
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "support/tank.hpp"
+
+namespace gdesp {
+namespace {
+
+// A periodic box of water without gravity or walls, grains moving through it.
+SimulationInput periodic_box(double dp, int n) {
+  SimulationInput input;
+  input.lower = {0, 0, 0};
+  input.upper = {n * dp, n * dp, n * dp};
+  for (bool& p : input.periodic) p = true;
+  auto& p = input.fluid_parameters;
+  p.dp = dp;
+  p.h = 1.5 * dp;
+  p.sound_speed = 10.0;
+  p.kinematic_viscosity = 1e-6;
+  p.gravity = {};
+  test::fill_block(input.fluid, {0, 0, 0}, input.upper, dp, false);
+  input.fluid.density.assign(input.fluid.position.size(), 1000.0f);
+  input.contact.youngs_modulus = 1e6;
+  return input;
+}
+
+TEST(Coupling, closed_system_keeps_its_momentum) {
+  for (TimeScheme scheme : {TimeScheme::split, TimeScheme::verlet}) {
+    SimulationInput input = periodic_box(0.01, 14);
+    input.time.scheme = scheme;
+    std::mt19937 random(4);
+    std::uniform_real_distribution<double> u(0.0, 0.14);
+    for (int k = 0; k < 60; ++k) {
+      input.grains.position.push_back({u(random), u(random), u(random)});
+      input.grains.velocity.push_back({0.5f, -0.2f, 0.1f});
+      input.grains.diameter.push_back(0.005f);
+      input.grains.density.push_back(2500.0f);
+    }
+    auto simulation = make_simulation(input, "cpu");
+    const Diagnostics before = simulation->diagnostics();
+    simulation->advance_to(0.05);
+    const Diagnostics after = simulation->diagnostics();
+    const Vec3d total = before.fluid_momentum + before.grain_momentum;
+    const Vec3d change = after.fluid_momentum + after.grain_momentum - total;
+    EXPECT_LT(norm(change), 1e-5 * norm(total)) << "scheme " << static_cast<int>(scheme);
+    // The water took a good part of it: this is not a test of nothing happening.
+    EXPECT_LT(norm(after.grain_momentum), 0.9 * norm(before.grain_momentum));
+    EXPECT_GT(norm(after.fluid_momentum), 0.1 * norm(total));
+  }
+}
+
+SimulationInput settling_tank(double dp, float d) {
+  SimulationInput input = test::tank_input({0.1, 0.1, 0.2}, 0.15, dp, 3);
+  input.fluid_parameters.h = 1.5 * dp;
+  input.fluid_parameters.artificial_viscosity = 0.05;
+  test::fill_block(input.fluid, {0, 0, 0}, {0.1, 0.1, 0.15}, dp, false);
+  input.grains.position.push_back({0.05, 0.05, 0.12});
+  input.grains.diameter.push_back(d);
+  input.grains.density.push_back(2500.0f);
+  input.contact.youngs_modulus = 1e5;
+  return input;
+}
+
+TEST(Coupling, a_bead_settles_at_its_terminal_velocity) {
+  // 2.7 mm glass bead in water. Dallavalle 0.287 m/s, Schiller-Naumann 0.343 m/s.
+  SimulationInput input = settling_tank(0.01, 2.7e-3f);
+  auto felice = make_simulation(input, "cpu");
+  felice->advance_to(0.22);
+  EXPECT_NEAR(-felice->grains().velocity[0].z, 0.287f, 0.03f * 0.287f);
+  input.coupling.drag = coupling::Drag::ergun_wen_yu;
+  auto ergun = make_simulation(input, "cpu");
+  ergun->advance_to(0.22);
+  EXPECT_NEAR(-ergun->grains().velocity[0].z, 0.343f, 0.03f * 0.343f);
+}
+
+TEST(Coupling, buoyancy_of_a_neutral_grain_is_its_weight) {
+  SimulationInput input = settling_tank(0.01, 4e-3f);
+  input.grains.density[0] = 1000.0f;
+  auto simulation = make_simulation(input, "cpu");
+  simulation->advance_to(0.2);
+  EXPECT_LT(norm(simulation->grains().velocity[0]), 0.01f);  // a 1 % error of buoyancy gives 0.02 m/s at rest
+}
+
+TEST(Coupling, a_grain_above_the_water_falls_freely) {
+  SimulationInput input = settling_tank(0.01, 2.7e-3f);
+  input.grains.position[0].z = 0.19;
+  auto simulation = make_simulation(input, "cpu");
+  simulation->advance_to(0.03);
+  EXPECT_NEAR(simulation->grains().velocity[0].z, -9.81f * 0.03f, 0.01f * 9.81f * 0.03f);
+}
+
+}  // namespace
+}  // namespace gdesp

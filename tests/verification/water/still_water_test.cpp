@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// V2: a tank at rest, and what a run must not depend on.
+// @eq time.fluid-step
+#include <gtest/gtest.h>
+
+#include "exec/backend.hpp"
+#include "simulation/time_step_limits.hpp"
+#include "support/tank.hpp"
+
+namespace gdesp {
+namespace {
+
+constexpr double depth = 0.3, g = 9.81;
+
+SimulationInput still_tank(double dp, int dimensions) {
+  const double width = dimensions == 2 ? 0.0 : 0.12;
+  SimulationInput input = test::tank_input({0.4, width, 0.45}, depth, dp, dimensions);
+  input.fluid_parameters.h = 1.5 * dp;
+  input.fluid_parameters.artificial_viscosity = 0.05;
+  test::fill_block(input.fluid, {0, 0, 0}, {0.4, width, depth}, dp, dimensions == 2);
+  return input;
+}
+
+// Largest pressure error over rho g H and spurious speed over sqrt(g H).
+void expect_still(const SimulationInput& input, double end, double pressure_bound, double speed_bound) {
+  auto simulation = make_simulation(input, "cpu");
+  simulation->advance_to(end);
+  const FluidTable water = simulation->fluid();
+  double error = 0.0, speed = 0.0;
+  for (std::size_t i = 0; i < water.position.size(); ++i) {
+    const double exact = 1000.0 * g * (depth - water.position[i].z);
+    error = std::max(error, std::abs(static_cast<double>(water.pressure[i]) - exact) / (1000.0 * g * depth));
+    speed = std::max(speed, static_cast<double>(norm(water.velocity[i])));
+  }
+  EXPECT_LT(error, pressure_bound);
+  EXPECT_LT(speed / std::sqrt(g * depth), speed_bound);
+  EXPECT_EQ(simulation->diagnostics().lost_fluid, 0);
+}
+
+TEST(StillWater, stays_still_in_the_plane) { expect_still(still_tank(0.01, 2), 2.0, 0.02, 0.005); }
+TEST(StillWater, stays_still_in_space) { expect_still(still_tank(0.02, 3), 1.5, 0.02, 0.005); }
+
+TEST(Simulation, gives_the_same_bytes_with_any_number_of_threads) {
+  SimulationInput input = still_tank(0.02, 3);
+  input.fluid.position.resize(input.fluid.position.size() / 2);  // collapses
+  input.fluid.density.assign(input.fluid.position.size(), 1000.0f);
+  std::vector<FluidTable> results;
+  for (int threads : {1, 2, 3}) {
+    exec::set_threads(threads);
+    auto simulation = make_simulation(input, "cpu");
+    simulation->advance_to(0.1);
+    results.push_back(simulation->fluid());
+  }
+  for (const FluidTable& result : results) {
+    ASSERT_EQ(result.position.size(), results[0].position.size());
+    for (std::size_t i = 0; i < result.position.size(); ++i) {
+      ASSERT_EQ(result.position[i], results[0].position[i]);
+      ASSERT_EQ(result.velocity[i], results[0].velocity[i]);
+      ASSERT_EQ(result.density[i], results[0].density[i]);
+    }
+  }
+}
+
+TEST(FluidStepLimit, takes_the_smallest_and_names_it) {
+  EXPECT_STREQ(fluid_step_limit(0.5, 0.01, 20, 1, 10, 1e-6).bound, "sound");
+  EXPECT_NEAR(fluid_step_limit(0.5, 0.01, 20, 5, 10, 1e-6).dt, 0.5 * 0.01 / 25.0, 1e-15);
+  EXPECT_STREQ(fluid_step_limit(0.5, 0.01, 20, 1, 1e6, 1e-6).bound, "force");
+  EXPECT_STREQ(fluid_step_limit(0.5, 0.01, 20, 1, 10, 1.0).bound, "viscosity");
+  EXPECT_NEAR(fluid_step_limit(0.5, 0.01, 20, 1, 10, 1.0).dt, 0.125e-4, 1e-12);
+}
+
+}  // namespace
+}  // namespace gdesp
