@@ -1,18 +1,36 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // gdesp-run: from a case to the frames of its simulation.
+#include <unistd.h>
+
+#include <cstdlib>
+
+#include "explain.hpp"
 #include "options.hpp"
 #include "run_loop.hpp"
 
 namespace {
+
+/// Threads that wait for each other at the end of a loop spin for some 10 ms by default, which on a busy machine makes
+/// two threads ten times slower than one; a tenth of a millisecond serves as well. The OpenMP runtime reads this once,
+/// when a program starts: so the program starts again.
+void wait_briefly(char** argv) {
+  if (std::getenv("GOMP_SPINCOUNT") || std::getenv("OMP_WAIT_POLICY")) return;
+  if (::setenv("GOMP_SPINCOUNT", "10000", 1) == 0) ::execv("/proc/self/exe", argv);
+}
 
 int run(const std::vector<std::string>& arguments) {
   auto options = gdesp::tool::parse_options(arguments);
   if (!options) return 0;
   gdesp::cli::install_signal_handlers();
   gdesp::tool::resolve_paths(*options);
+  if (gdesp::cli::interrupted()) return 130;
+  if (options->explain) return gdesp::tool::explain(std::move(*options));
   return gdesp::tool::run_case(std::move(*options));
 }
 
 }  // namespace
 
-int main(int argc, char** argv) { return gdesp::cli::run_tool("gdesp-run", argc, argv, run); }
+int main(int argc, char** argv) {
+  wait_briefly(argv);
+  return gdesp::cli::run_tool("gdesp-run", argc, argv, run);
+}

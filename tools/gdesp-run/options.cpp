@@ -9,6 +9,7 @@
 #include "core/version.hpp"
 #include "exec/backend.hpp"
 #include "io/frame.hpp"
+#include "run_files.hpp"
 
 namespace gdesp::tool {
 namespace {
@@ -103,7 +104,7 @@ std::string case_from_stdin() {
     if (path != record->end() && path->is_string() && !path->get<std::string>().empty()) return path->get<std::string>();
     throw Error(ErrorKind::input, "standard input, line " + std::to_string(line_number) + ": a case record without \"path\"");
   }
-  if (cli::interrupted()) throw Error(ErrorKind::input, "interrupted while waiting for a case record on standard input");
+  if (cli::interrupted()) return {};
   throw Error(ErrorKind::input, "standard input ended without a case record (mesh2particles writes one when it has succeeded)");
 }
 
@@ -111,6 +112,22 @@ std::string absolute(const std::string& path) {
   std::string text = fs::absolute(path).lexically_normal().string();
   while (text.size() > 1 && text.back() == '/') text.pop_back();
   return text;
+}
+
+/// From the run.json of the run that goes on.
+void take_over(RunOptions& options, const nlohmann::ordered_json& earlier) {
+  if (!earlier.is_object()) return;
+  const auto number = [&](const char* key) -> std::optional<double> {
+    const auto found = earlier.find(key);
+    if (found == earlier.end() || !found->is_number() || !(found->get<double>() > 0.0)) return std::nullopt;
+    return found->get<double>();
+  };
+  if (!options.t_end) options.t_end = number("t_end");
+  options.output_interval = number("output_interval");
+  const auto overrides = earlier.find("overrides");
+  if (!options.overrides.empty() || overrides == earlier.end() || !overrides->is_array()) return;
+  for (const auto& text : *overrides)
+    if (text.is_string()) options.overrides.push_back(cli::parse_override(text.get<std::string>()));
 }
 
 }  // namespace
@@ -132,11 +149,15 @@ std::optional<RunOptions> parse_options(const std::vector<std::string>& argument
 }
 
 void resolve_paths(RunOptions& options) {
-  if (options.case_path == "-") options.case_path = case_from_stdin();
+  if (options.case_path == "-") {
+    options.case_path = case_from_stdin();
+    if (cli::interrupted()) return;
+  }
   if (options.case_path.empty()) options.case_path = run_case_path(options.run_folder);
   options.case_path = absolute(options.case_path);
   if (options.run_folder.empty()) options.run_folder = fs::path(options.case_path).stem().string() + ".run";
   options.run_folder = absolute(options.run_folder);
+  if (options.resume) take_over(options, read_run_json(options.run_folder));
 }
 
 }  // namespace gdesp::tool

@@ -16,6 +16,7 @@ struct RunOptions {
   std::string device = "auto";
   int threads = 0;                      ///< 0: all cores
   std::optional<double> t_end;          ///< s; default: the scene's
+  std::optional<double> output_interval;  ///< s; set when a run goes on: that of its start
   std::vector<Override> overrides;      ///< --preset and --set, in this order
   double checkpoint_every = 0.0;        ///< s of wall time; 0: only when interrupted
   bool resume = false, explain = false, profile = false, force = false;
@@ -26,7 +27,8 @@ struct RunOptions {
 std::optional<RunOptions> parse_options(const std::vector<std::string>& arguments);
 
 /// The case to run: the option itself, the path of the first case record on standard input (records before it go
-/// to standard output unharmed), or the case of the run folder that is resumed. Fills case_path and run_folder.
+/// to standard output unharmed), or the case of the run folder that is resumed. Fills case_path and run_folder, both
+/// absolute. With --resume, what the interrupted run was told and this one is not (end, --set) is taken over.
 void resolve_paths(RunOptions& options);
 
 }  // namespace gdesp::tool

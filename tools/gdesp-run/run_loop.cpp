@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <iostream>
 
+#include "checkpoint_files.hpp"
 #include "core/version.hpp"
 #include "exec/array.hpp"
 #include "exec/profile.hpp"
@@ -45,10 +46,16 @@ ordered_json run_description(const Session& s) {
 /// One run under way: the simulation, its output, its clock.
 class Run {
  public:
-  explicit Run(Session session)
+  Run(Session session, const std::optional<Checkpoint>& resumed)
       : session_(std::move(session)), terminal_(cli::stdout_is_terminal()),
         output_(open_folder(session_), [this](const FramePaths& paths) { frame_written(paths); }),
-        log_(session_.options.run_folder, -1), description_(run_description(session_)) {
+        log_(session_.options.run_folder, session_.simulation->step_count() > 0 ? session_.simulation->step_count() : -1),
+        checkpoints_(session_.options.run_folder, session_.fingerprint), description_(run_description(session_)) {
+    if (resumed) {
+      earlier_seconds_ = saved_ = resumed->wall_seconds;
+      description_["resumed_at_step"] = resumed->step;
+      tell_earlier_frames();
+    }
     write_status("running", {});
   }
 
@@ -74,13 +81,21 @@ class Run {
   }
 
   Simulation& simulation() { return *session_.simulation; }
-  double wall_seconds() const { return std::chrono::duration<double>(Clock::now() - begun_).count(); }
+  double wall_seconds() const {
+    return earlier_seconds_ + std::chrono::duration<double>(Clock::now() - begun_).count();
+  }
   double score() {
     return static_cast<double>(session_.summary.moving_particles) * simulation().time() / wall_seconds();
   }
 
   void frame_written(const FramePaths& paths) {
     if (!terminal_) cli::write_record(frame_record(paths, session_.options.case_path));
+  }
+
+  /// Whoever reads our records gets the frames from before the interruption too.
+  void tell_earlier_frames() {
+    for (const FramePaths& paths : list_frames(session_.options.run_folder))
+      if (paths.time <= simulation().time()) frame_written(paths);
   }
 
   int steps() {
@@ -94,13 +109,25 @@ class Run {
         output_.check();
         if (simulation().step_count() % steps_between_diagnostics == 0) note();
         tell(progress, first);
-        if (cli::interrupted()) break;
+        if (cli::interrupted() || checkpoint_is_due()) break;
       }
       if (simulation().time() >= next) put_out();
-      if (cli::interrupted() && simulation().time() < end) return 130;
+      const bool stop = cli::interrupted() && simulation().time() < end;
+      if (stop || checkpoint_is_due()) save();
+      if (stop) return 130;
     }
     progress.done();
     return 0;
+  }
+
+  bool checkpoint_is_due() const { return wall_seconds() - saved_ >= session_.options.checkpoint_every; }
+
+  /// All frames up to now are on disk before the checkpoint that follows them.
+  void save() {
+    output_.drain();
+    checkpoint_ = checkpoints_.write(simulation(), wall_seconds());
+    saved_ = wall_seconds();
+    cli::detail("checkpoint at t = " + number_text(checkpoint_->time) + " s: " + checkpoint_->path);
   }
 
   void put_out() {
@@ -109,8 +136,7 @@ class Run {
   }
 
   void note() {
-    latest_ = simulation().diagnostics();
-    log_.add(latest_);
+    log_.add(simulation().diagnostics());
   }
 
   void tell(cli::Progress& progress, double first) {
@@ -118,9 +144,8 @@ class Run {
     if (now - told_ < 0.2) return;
     told_ = now;
     const double t = simulation().time(), end = session_.times.end;
-    const Diagnostics step = simulation().diagnostics();
     progress.update((t - first) / (end - first), "t " + number_text(t) + " of " + number_text(end) + " s  dt " +
-                                                     number_text(step.time_step, 2) + " s (" + step.limited_by +
+                                                     number_text(simulation().last_time_step(), 2) + " s (" + simulation().limited_by() +
                                                      ")  score " + number_text(score(), 3));
   }
 
@@ -140,11 +165,16 @@ class Run {
   void finish(int code) {
     const bool done = code == 0;
     write_status(done ? "done" : "interrupted", {});
-    const ordered_json record{{"record", done ? "done" : "interrupted"}, {"run", session_.options.run_folder},
+    ordered_json record{{"record", done ? "done" : "interrupted"}, {"run", session_.options.run_folder},
                               {"case", session_.options.case_path}, {"steps", simulation().step_count()},
                               {"t", simulation().time()}, {"wall_seconds", wall_seconds()},
                               {"particles", session_.summary.moving_particles}, {"score", score()},
                               {"device", session_.device}};
+    if (!done && checkpoint_) {
+      record["checkpoint"] = checkpoint_->path;
+      cli::info("interrupted at t = " + number_text(simulation().time()) + " s; gdesp-run --resume -o " +
+                session_.options.run_folder + " goes on");
+    }
     if (!terminal_) cli::write_record(record);
     else std::cout << summary_text(done) << std::flush;
     if (session_.options.profile) tell_profile();
@@ -182,12 +212,20 @@ class Run {
   Session session_;
   bool terminal_;
   Clock::time_point begun_ = Clock::now();
-  double told_ = 0.0;
-  Diagnostics latest_;
+  double earlier_seconds_ = 0.0, told_ = 0.0, saved_ = 0.0;  // s of wall time: before a resumption; last said, saved
   FrameOutput output_;
   DiagnosticsLog log_;
+  CheckpointFiles checkpoints_;
+  std::optional<Checkpoint> checkpoint_;
   ordered_json description_;
 };
+
+std::optional<Checkpoint> resume(Session& session) {
+  const auto checkpoint = CheckpointFiles(session.options.run_folder, session.fingerprint).load_newest(*session.simulation);
+  if (checkpoint) cli::info("goes on at t = " + number_text(checkpoint->time) + " s, step " + std::to_string(checkpoint->step));
+  else cli::info("no checkpoint yet: starts from the beginning");
+  return checkpoint;
+}
 
 }  // namespace
 
@@ -195,7 +233,9 @@ int run_case(RunOptions options) {
   Session session = prepare(std::move(options));
   for (const std::string& line : session.summary.lines) cli::info(line);
   start(session);
-  return Run(std::move(session)).go();
+  std::optional<Checkpoint> checkpoint;
+  if (session.options.resume) checkpoint = resume(session);
+  return Run(std::move(session), checkpoint).go();
 }
 
 }  // namespace gdesp::tool

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "session.hpp"
 
+#include "checkpoint_files.hpp"
 #include "exec/backend.hpp"
 #include "exec/profile.hpp"
 #include "moving_surfaces.hpp"
@@ -17,6 +18,30 @@ std::string name_of_device(const std::string& device, int threads) {
   return device;
 }
 
+template <class T>
+void add(Checksum& sum, const std::vector<T>& values) {
+  sum.add(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+}
+
+std::uint64_t fingerprint_of(const Case& c) {
+  Scene scene = c.scene;
+  scene.time = {};
+  const std::string text = scene_to_toml(scene);
+  Checksum sum;
+  sum.add(text.data(), text.size());
+  add(sum, c.fluid.position);
+  add(sum, c.fluid.velocity);
+  add(sum, c.boundary.position);
+  add(sum, c.boundary.friction);
+  add(sum, c.boundary.body);
+  add(sum, c.grains.position);
+  add(sum, c.grains.diameter);
+  add(sum, c.grains.density);
+  add(sum, c.walls.vertex);
+  add(sum, c.walls.body);
+  return sum.value();
+}
+
 }  // namespace
 
 Session prepare(RunOptions options) {
@@ -30,6 +55,8 @@ Session prepare(RunOptions options) {
   TimeControl& time = s.scene_case.scene.time;
   if (options.t_end) time.end = *options.t_end;
   s.times = {time.output_interval > 0.0 ? time.output_interval : time.end / standard_frames, time.end};
+  if (options.output_interval) s.times.interval = *options.output_interval;
+  s.fingerprint = fingerprint_of(s.scene_case);
   const ExpectedSpeed expected = expected_speed(s.scene_case);
   s.input = case_to_input(s.scene_case);
   s.summary = summarize(s.scene_case.scene, s.input, expected, s.device, s.threads);

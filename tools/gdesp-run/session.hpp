@@ -21,6 +21,7 @@ struct Session {
   std::string device;               ///< cpu or cuda:N
   std::string device_name;          ///< for people
   int threads = 1;
+  std::uint64_t fingerprint = 0;    ///< of the case and its parameters, not of the end and the output
   std::unique_ptr<Simulation> simulation;
 };
 

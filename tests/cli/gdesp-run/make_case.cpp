@@ -56,6 +56,10 @@ struct Maker {
     quad({0, lo, 0}, {size.x, lo, 0}, {size.x, lo + w, 0}, {0, lo + w, 0}, 0);
     quad({0, lo, 0}, {0, lo + w, 0}, {0, lo + w, size.z}, {0, lo, size.z}, 0);
     quad({size.x, lo, 0}, {size.x, lo, size.z}, {size.x, lo + w, size.z}, {size.x, lo + w, 0}, 0);
+    if (three) {
+      quad({0, 0, 0}, {0, 0, size.z}, {size.x, 0, size.z}, {size.x, 0, 0}, 0);
+      quad({0, w, 0}, {size.x, w, 0}, {size.x, w, size.z}, {0, w, size.z}, 0);
+    }
     if (c.bodies.empty()) return;
     quad({0.1, lo, 0}, {0.1, lo + w, 0}, {0.1, lo + w, 0.22}, {0.1, lo, 0.22}, 1);
     lattice({0.1, 0.0, 0.0}, {0.1 + 2 * dp, size.y, 0.22}, [&](const Vec3d& r) { wall(r, 1, static_cast<float>(0.5 * dp)); });

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "checkpoint_files.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <streambuf>
+#include <vector>
+
+#include "cli/cli.hpp"
+#include "core/error.hpp"
+#include "io/safe_file.hpp"
+
+namespace gdesp::tool {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::size_t block_size = std::size_t{1} << 20, kept = 2;
+constexpr char file_mark[8] = {'G', 'D', 'E', 'S', 'P', 'C', 'K', '1'};
+
+struct Header {
+  char mark[8];
+  std::uint64_t fingerprint;
+  std::int64_t step;
+  double time, wall_seconds;
+};
+struct Trailer {
+  std::uint64_t size, checksum;  // of all that comes before
+  char mark[8];
+};
+
+/// Writes through a SafeFile, with the checksum taken on the way.
+class CheckedOutput : public std::streambuf {
+ public:
+  explicit CheckedOutput(SafeFile& file) : file_(file), buffer_(block_size) {
+    setp(buffer_.data(), buffer_.data() + buffer_.size());
+  }
+  Trailer finish() {
+    write_out();
+    Trailer trailer{size_, checksum_.value(), {}};
+    std::memcpy(trailer.mark, file_mark, sizeof file_mark);
+    return trailer;
+  }
+
+ protected:
+  int_type overflow(int_type c) override {
+    write_out();
+    if (!traits_type::eq_int_type(c, traits_type::eof())) {
+      *pptr() = traits_type::to_char_type(c);
+      pbump(1);
+    }
+    return traits_type::not_eof(c);
+  }
+
+ private:
+  void write_out() {
+    const auto count = static_cast<std::size_t>(pptr() - pbase());
+    checksum_.add(pbase(), count);
+    file_.write(pbase(), count);
+    size_ += count;
+    setp(buffer_.data(), buffer_.data() + buffer_.size());
+  }
+  SafeFile& file_;
+  std::vector<char> buffer_;
+  Checksum checksum_;
+  std::uint64_t size_ = 0;
+};
+
+/// Checkpoint files, newest first.
+std::vector<fs::path> list(const std::string& folder) {
+  std::vector<fs::path> paths;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+    if (entry.path().extension() == ".state") paths.push_back(entry.path());
+  std::sort(paths.begin(), paths.end(), std::greater<>());
+  return paths;
+}
+
+/// Reads the whole file once; what is wrong with it, or "".
+std::string damage(std::ifstream& file, std::uintmax_t size) {
+  if (size < sizeof(Header) + sizeof(Trailer)) return "is cut short";
+  std::vector<char> block(block_size);
+  Checksum checksum;
+  std::uint64_t left = size - sizeof(Trailer);
+  while (left > 0 && file) {
+    const std::size_t count = static_cast<std::size_t>(std::min<std::uint64_t>(left, block.size()));
+    file.read(block.data(), static_cast<std::streamsize>(count));
+    checksum.add(block.data(), count);
+    left -= count;
+  }
+  Trailer trailer{};
+  file.read(reinterpret_cast<char*>(&trailer), sizeof trailer);
+  if (!file) return "cannot be read";
+  if (std::memcmp(trailer.mark, file_mark, sizeof file_mark) != 0 || trailer.size != size - sizeof(Trailer)) return "is cut short";
+  return trailer.checksum == checksum.value() ? "" : "is damaged (its checksum does not fit)";
+}
+
+}  // namespace
+
+void Checksum::add(const char* bytes, std::size_t count) {
+  for (std::size_t at = 0; at < count; at += 8) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes + at, std::min<std::size_t>(8, count - at));
+    state_ = (state_ ^ word) * 0x9e3779b97f4a7c15ull;
+    state_ = (state_ << 29) | (state_ >> 35);
+  }
+}
+
+CheckpointFiles::CheckpointFiles(const std::string& run_folder, std::uint64_t fingerprint)
+    : folder_(run_folder + "/checkpoints"), fingerprint_(fingerprint) {}
+
+Checkpoint CheckpointFiles::write(Simulation& simulation, double wall_seconds) {
+  std::error_code trouble;
+  fs::create_directories(folder_, trouble);
+  if (trouble) throw Error(ErrorKind::resource, folder_ + ": cannot be made: " + trouble.message());
+  char name[48];
+  std::snprintf(name, sizeof name, "/step_%012lld.state", static_cast<long long>(simulation.step_count()));
+  const Checkpoint checkpoint{folder_ + name, simulation.step_count(), simulation.time(), wall_seconds};
+  Header header{{}, fingerprint_, checkpoint.step, checkpoint.time, wall_seconds};
+  std::memcpy(header.mark, file_mark, sizeof file_mark);
+  SafeFile file(checkpoint.path);
+  CheckedOutput output(file);
+  std::ostream stream(&output);
+  stream.exceptions(std::ios::badbit);  // what SafeFile throws comes through
+  stream.write(reinterpret_cast<const char*>(&header), sizeof header);
+  simulation.save(stream);
+  const Trailer trailer = output.finish();
+  file.write(&trailer, sizeof trailer);
+  file.commit();
+  const std::vector<fs::path> paths = list(folder_);
+  for (std::size_t k = kept; k < paths.size(); ++k) fs::remove(paths[k], trouble);
+  return checkpoint;
+}
+
+std::optional<Checkpoint> CheckpointFiles::load_newest(Simulation& simulation) {
+  for (const fs::path& path : list(folder_)) {
+    std::ifstream file(path, std::ios::binary);
+    std::error_code ignored;
+    const std::string wrong = damage(file, fs::file_size(path, ignored));
+    if (!wrong.empty()) {
+      cli::warning(path.string() + " " + wrong + "; the checkpoint before it is taken");
+      continue;
+    }
+    file.clear();
+    file.seekg(0);
+    Header header{};
+    file.read(reinterpret_cast<char*>(&header), sizeof header);
+    if (std::memcmp(header.mark, file_mark, sizeof file_mark) != 0 || header.fingerprint != fingerprint_)
+      throw Error(ErrorKind::input, path.string() + ": was written for another case, or with other parameters (--set, "
+                                                    "--preset); give those of the interrupted run, or --force to start anew");
+    simulation.load(file);
+    return Checkpoint{path.string(), header.step, header.time, header.wall_seconds};
+  }
+  return std::nullopt;
+}
+
+}  // namespace gdesp::tool
