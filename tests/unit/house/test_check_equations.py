@@ -37,6 +37,12 @@ class CheckEquations(TreeTest):
         self.write("docs/equations.md", "## sph.eos.tait\n## dem.hertz.normal\n")
         self.assert_finds("docs/equations.md:2: a section for dem.hertz.normal")
 
+    def test_this_folder_names_tags_without_testing_them(self):
+        self.write("tests/unit/house/test_check_equations.py", "# @eq sph.eos.tait\n# @eq dem.hertz.normal\n")
+        self.assert_clean()
+        (self.root / "tests/unit/sph/test_tait.cpp").unlink()
+        self.assert_finds("sph.eos.tait is named by no test")
+
     def test_sentence_end_is_no_part_of_a_tag(self):
         self.write("lib/sph/tait.hpp", "// the law of @eq sph.eos.tait.\n")
         self.assert_clean()
