@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Files of other programs through VTK: VTP, VTU, legacy VTK. The one file of the module that sees VTK.
-#include <vtkCell.h>
-#include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDataSetReader.h>
+#include <vtkFieldData.h>
 #include <vtkIdList.h>
-#include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
@@ -18,18 +16,16 @@
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
-#include <cmath>
-#include <mutex>
 #include <string_view>
 
 #include "core/error.hpp"
-#include "io/point_source.hpp"
 #include "io/foreign_guard.hpp"
+#include "io/isolated.hpp"
 
 namespace gdesp {
 namespace {
 
-/// Takes what VTK would print. VTK has one window for the process: the lock keeps readings apart.
+/// Takes what VTK would print. It stays in place: all this runs in a child process of its own.
 class MessageCatcher : public vtkOutputWindow {
  public:
   static MessageCatcher* New();
@@ -52,9 +48,7 @@ class MessageCatcher : public vtkOutputWindow {
 };
 vtkStandardNewMacro(MessageCatcher);
 
-std::mutex vtk_window_mutex;
-
-/// The last line of a VTK message that says something, without addresses.
+/// The first line of a VTK message that says something, without addresses.
 std::string told(const std::string& messages) {
   const std::size_t mark = messages.find("): ");
   std::string text = mark == std::string::npos ? messages : messages.substr(mark + 3);
@@ -64,126 +58,93 @@ std::string told(const std::string& messages) {
 
 template <class Reader>
 vtkSmartPointer<vtkPointSet> read_file(const std::string& path) {
-  const std::lock_guard<std::mutex> lock(vtk_window_mutex);
-  const vtkSmartPointer<vtkOutputWindow> before = vtkOutputWindow::GetInstance();
   const vtkNew<MessageCatcher> catcher;
   vtkOutputWindow::SetInstance(catcher);
-  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
-  vtkSmartPointer<vtkPointSet> data;
-  unsigned long code = 0;
-  try {
-    const vtkNew<Reader> reader;
-    reader->SetFileName(path.c_str());
-    reader->Update();
-    code = reader->GetErrorCode();
-    data = vtkPointSet::SafeDownCast(reader->GetOutput());
-  } catch (const std::exception& problem) {  // sizes that lie end in bad_alloc or length_error
-    catcher->messages += std::string("): ") + problem.what();
-  }
-  vtkOutputWindow::SetInstance(before);
-  if (code != 0 || !catcher->messages.empty())
+  const vtkNew<Reader> reader;
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  const vtkSmartPointer<vtkPointSet> data = vtkPointSet::SafeDownCast(reader->GetOutput());
+  if (reader->GetErrorCode() != 0 || !catcher->messages.empty())
     throw Error(ErrorKind::input, path + ": VTK cannot read it: " + told(catcher->messages));
   if (!data) throw Error(ErrorKind::input, path + ": holds no point set (expected polydata or an unstructured grid)");
   return data;
 }
 
-class VtkSource : public PointSource {
- public:
-  VtkSource(std::string path, vtkSmartPointer<vtkPointSet> data) : path_(std::move(path)), data_(std::move(data)) {}
+bool holds_integers(vtkDataArray& a) { return a.GetDataType() != VTK_FLOAT && a.GetDataType() != VTK_DOUBLE; }
 
-  std::size_t size() const override { return static_cast<std::size_t>(data_->GetNumberOfPoints()); }
-
-  std::vector<Vec3d> positions() const override {
-    std::vector<Vec3d> out(size());
-    for (std::size_t i = 0; i < out.size(); ++i) {
-      double xyz[3];
-      data_->GetPoint(vtkIdType(i), xyz);
-      out[i] = {xyz[0], xyz[1], xyz[2]};
-    }
-    return out;
-  }
-
-  std::vector<std::string> names() const override {
-    std::vector<std::string> out;
-    for (int i = 0; i < data_->GetPointData()->GetNumberOfArrays(); ++i)
-      if (const char* name = data_->GetPointData()->GetArrayName(i)) out.emplace_back(name);
-    return out;
-  }
-
-  int components(const std::string& name) const override {
-    const vtkDataArray* a = data_->GetPointData()->GetArray(name.c_str());
-    return a ? const_cast<vtkDataArray*>(a)->GetNumberOfComponents() : 0;
-  }
-
-  void read(const std::string& name, float* values) const override { copy(name, values); }
-  void read(const std::string& name, std::int64_t* values) const override { copy(name, values); }
-
-  std::vector<double> field(const std::string& name) const override {
-    std::vector<double> out;
-    vtkDataArray* a = data_->GetFieldData()->GetArray(name.c_str());
-    if (!a) return out;
-    for (vtkIdType i = 0; i < a->GetNumberOfTuples(); ++i)
-      for (int k = 0; k < a->GetNumberOfComponents(); ++k) out.push_back(a->GetComponent(i, k));
-    return out;
-  }
-
-  TriangleTable triangles() const override {
-    TriangleTable table;
-    table.vertex = positions();
-    vtkDataArray* body = data_->GetCellData()->GetArray("body");
-    const vtkNew<vtkIdList> corners;
-    for (vtkIdType i = 0; i < data_->GetNumberOfCells(); ++i) {
-      if (data_->GetCellType(i) == VTK_TRIANGLE_STRIP)
-        throw Error(ErrorKind::input, path_ + ": holds triangle strips, expected triangles");
-      data_->GetCellPoints(i, corners);
-      const bool surface = data_->GetCellType(i) == VTK_TRIANGLE || data_->GetCellType(i) == VTK_POLYGON ||
-                           data_->GetCellType(i) == VTK_QUAD;
-      for (vtkIdType k = 2; surface && k < corners->GetNumberOfIds(); ++k) {
-        table.triangle.push_back({vertex(corners->GetId(0)), vertex(corners->GetId(k - 1)), vertex(corners->GetId(k))});
-        table.body.push_back(body ? static_cast<std::int32_t>(body->GetComponent(i, 0)) : 0);
+void take_columns(const std::string& path, vtkPointSet& data, MemoryPoints& points) {
+  for (int i = 0; i < data.GetPointData()->GetNumberOfArrays(); ++i) {
+    vtkDataArray* a = data.GetPointData()->GetArray(i);
+    if (!a || !a->GetName()) continue;
+    if (a->GetNumberOfTuples() != data.GetNumberOfPoints())
+      throw Error(ErrorKind::input, path + ": field " + a->GetName() + " has " + std::to_string(a->GetNumberOfTuples()) +
+                                        " values for " + std::to_string(data.GetNumberOfPoints()) + " points");
+    MemoryColumn column{a->GetName(), a->GetNumberOfComponents(), {}, {}};
+    const auto values = std::size_t(a->GetNumberOfTuples()) * std::size_t(column.components);
+    if (holds_integers(*a)) column.integers.reserve(values);
+    else column.numbers.reserve(values);
+    for (vtkIdType k = 0; k < a->GetNumberOfTuples(); ++k)
+      for (int c = 0; c < column.components; ++c) {
+        const double value = a->GetComponent(k, c);
+        if (holds_integers(*a)) column.integers.push_back(value >= -9e15 && value <= 9e15 ? std::int64_t(value) : -1);
+        else column.numbers.push_back(static_cast<float>(value));
       }
-    }
-    return table;
+    points.columns.push_back(std::move(column));
   }
+}
 
- private:
-  std::int32_t vertex(vtkIdType id) const {
-    if (id < 0 || id >= data_->GetNumberOfPoints())
-      throw Error(ErrorKind::input, path_ + ": a polygon names vertex " + std::to_string(id) + " of " +
-                                        std::to_string(data_->GetNumberOfPoints()));
+void take_fields(vtkPointSet& data, MemoryPoints& points) {
+  for (int i = 0; i < data.GetFieldData()->GetNumberOfArrays(); ++i) {
+    vtkDataArray* a = data.GetFieldData()->GetArray(i);
+    if (!a || !a->GetName()) continue;
+    MemoryField field{a->GetName(), {}};
+    for (vtkIdType k = 0; k < a->GetNumberOfTuples(); ++k)
+      for (int c = 0; c < a->GetNumberOfComponents(); ++c) field.values.push_back(a->GetComponent(k, c));
+    points.fields.push_back(std::move(field));
+  }
+}
+
+void take_triangles(const std::string& path, vtkPointSet& data, MemoryPoints& points) {
+  vtkDataArray* body = data.GetCellData()->GetArray("body");
+  const vtkNew<vtkIdList> corners;
+  const auto vertex = [&](vtkIdType k) {
+    const vtkIdType id = corners->GetId(k);
+    if (id < 0 || id >= data.GetNumberOfPoints())
+      throw Error(ErrorKind::input, path + ": a polygon names vertex " + std::to_string(id) + " of " +
+                                        std::to_string(data.GetNumberOfPoints()));
     return static_cast<std::int32_t>(id);
+  };
+  for (vtkIdType i = 0; i < data.GetNumberOfCells(); ++i) {
+    const int type = data.GetCellType(i);
+    if (type == VTK_TRIANGLE_STRIP) throw Error(ErrorKind::input, path + ": holds triangle strips, expected triangles");
+    if (type != VTK_TRIANGLE && type != VTK_POLYGON && type != VTK_QUAD) continue;
+    data.GetCellPoints(i, corners);
+    for (vtkIdType k = 2; k < corners->GetNumberOfIds(); ++k) {
+      points.surface.triangle.push_back({vertex(0), vertex(k - 1), vertex(k)});
+      points.surface.body.push_back(body ? static_cast<std::int32_t>(body->GetComponent(i, 0)) : 0);
+    }
   }
+}
 
-  template <class T>
-  void copy(const std::string& name, T* values) const {
-    vtkDataArray* a = data_->GetPointData()->GetArray(name.c_str());
-    const int parts = a->GetNumberOfComponents();
-    if (a->GetNumberOfTuples() != data_->GetNumberOfPoints())
-      throw Error(ErrorKind::input, path_ + ": field " + name + " has " + std::to_string(a->GetNumberOfTuples()) +
-                                        " values for " + std::to_string(data_->GetNumberOfPoints()) + " points");
-    for (vtkIdType i = 0; i < a->GetNumberOfTuples(); ++i)
-      for (int k = 0; k < parts; ++k) {
-        const double value = a->GetComponent(i, k);
-        if constexpr (std::is_integral_v<T>)
-          *values++ = value >= -9e15 && value <= 9e15 ? static_cast<T>(value) : T(-1);
-        else
-          *values++ = static_cast<T>(value);
-      }
-  }
-
-  std::string path_;
-  vtkSmartPointer<vtkPointSet> data_;
-};
-
-}  // namespace
-
-std::unique_ptr<PointSource> open_with_vtk(const std::string& path) {
+void read_by_vtk(const std::string& path, MemoryPoints& points) {
   refuse_implausible_vtk(path);
   vtkSmartPointer<vtkPointSet> data;
   if (path.ends_with(".vtp")) data = read_file<vtkXMLPolyDataReader>(path);
   else if (path.ends_with(".vtu")) data = read_file<vtkXMLUnstructuredGridReader>(path);
   else data = read_file<vtkDataSetReader>(path);
-  return std::make_unique<VtkSource>(path, data);
+  points.position.resize(static_cast<std::size_t>(data->GetNumberOfPoints()));
+  for (std::size_t i = 0; i < points.position.size(); ++i) {
+    double xyz[3];
+    data->GetPoint(vtkIdType(i), xyz);
+    points.position[i] = {xyz[0], xyz[1], xyz[2]};
+  }
+  take_columns(path, *data, points);
+  take_fields(*data, points);
+  take_triangles(path, *data, points);
 }
+
+}  // namespace
+
+std::unique_ptr<PointSource> open_with_vtk(const std::string& path) { return read_isolated(path, "VTK", read_by_vtk); }
 
 }  // namespace gdesp

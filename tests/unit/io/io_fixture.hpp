@@ -105,4 +105,19 @@ void expect_error(ErrorKind kind, const std::vector<std::string>& parts, Action 
   ADD_FAILURE() << "no error; expected one that mentions " << (parts.empty() ? "" : parts.front());
 }
 
+/// Reads `count` files made of the text with a few bytes changed: each is read, or refused as input.
+inline void expect_changed_bytes_do_no_harm(const TempFolder& folder, const std::string& path, int count) {
+  const std::string text = text_of_file(path), ending = path.substr(path.rfind('.'));
+  std::mt19937 engine(13);
+  for (int i = 0; i < count; ++i) {
+    std::string changed = text;
+    for (int k = 0; k <= i % 4; ++k) changed[engine() % changed.size()] = char(engine());
+    try {
+      read_fluid_frame(folder.write("changed" + ending, changed), {}, nullptr);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::input) << error.what();
+    }
+  }
+}
+
 }  // namespace gdesp::test

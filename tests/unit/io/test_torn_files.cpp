@@ -39,7 +39,7 @@ class TornFiles : public ::testing::Test {
 TEST_F(TornFiles, cut_anywhere) {
   const std::string text = fluid_text();
   ASSERT_TRUE(reads(text));
-  for (std::size_t length = 0; length < text.size() - 12; length += 11) EXPECT_FALSE(reads(text.substr(0, length))) << length;
+  for (std::size_t length = 0; length < text.size() - 12; length += 23) EXPECT_FALSE(reads(text.substr(0, length))) << length;
 }
 
 TEST_F(TornFiles, own_files_never_reach_vtk_for_being_torn) {
@@ -78,7 +78,7 @@ TEST_F(TornFiles, changed_bytes_do_no_harm) {
   const std::string text = fluid_text();
   std::mt19937 engine(11);
   int refused = 0;
-  for (int i = 0; i < 600; ++i) {
+  for (int i = 0; i < 300; ++i) {
     std::string changed = text;
     for (int k = 0; k < 1 + i % 3; ++k) changed[engine() % changed.size()] = char(engine());
     try {
@@ -88,7 +88,7 @@ TEST_F(TornFiles, changed_bytes_do_no_harm) {
       ++refused;
     }
   }
-  EXPECT_GT(refused, 50);
+  EXPECT_GT(refused, 25);
 }
 
 TEST_F(TornFiles, triangles_that_name_no_vertex) {
