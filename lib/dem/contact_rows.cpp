@@ -4,31 +4,49 @@
 namespace gdesp::dem {
 namespace {
 
-constexpr int buffer_size = 40;
+constexpr int search_floats = 16;   // x y z radius, four each, of a cluster
 
-// Candidates of one grain: those about to touch first, so that later rows are mostly idle.
-struct Candidates {
-  Index near[buffer_size], far[buffer_size];
-  Index near_count = 0, far_count = 0;
-
-  GDESP_HD void add(Index j, bool touching) {
-    if (touching) {
-      if (near_count < buffer_size) near[near_count] = j;
-      ++near_count;
-    } else {
-      if (far_count < buffer_size) far[far_count] = j;
-      ++far_count;
-    }
-  }
-  GDESP_HD bool overflowed() const { return near_count > buffer_size || far_count > buffer_size; }
-  GDESP_HD Index count() const { return near_count + far_count; }
-};
-
-struct BuildRows {
+// Places relative to the origin of the cluster's tile, for the search.
+struct PackSearch {
   CellGridView grid;
-  PositionUnit unit;
   const GrainRecord* records;
   const FixedPosition* position;
+  float* search;
+  GDESP_HD void operator()(Index slot) const {
+    const Index c = slot / exec::cluster_size;
+    float* out = search + search_floats * static_cast<std::int64_t>(c) + slot % exec::cluster_size;
+    const float radius = records[slot].radius;
+    Vec3f place{};
+    if (radius > 0.0f) place = grid.domain.relative_to_tile(position[slot], grid.cluster_tile[c]);
+    out[0] = place.x;
+    out[4] = place.y;
+    out[8] = place.z;
+    out[12] = radius;
+  }
+};
+
+// Four counts of sixteen bits, one for each grain of a cluster.
+struct FourCounts {
+  std::uint64_t packed = 0;
+  GDESP_HD Index operator[](int i) const { return static_cast<Index>((packed >> (16 * i)) & 0xffffu); }
+  // bits: four for each grain.
+  GDESP_HD void add(unsigned bits) {
+    const unsigned pairs = (bits & 0x5555u) + ((bits >> 1) & 0x5555u);
+    const unsigned fours = (pairs & 0x3333u) + ((pairs >> 2) & 0x3333u);
+    for (int i = 0; i < 4; ++i) packed += static_cast<std::uint64_t>((fours >> (4 * i)) & 15u) << (16 * i);
+  }
+};
+GDESP_HD inline Index ones_below(unsigned bits, int i, int j) {
+  unsigned b = (bits >> (4 * i)) & ((1u << j) - 1u);
+  Index count = 0;
+  for (; b != 0; b &= b - 1) ++count;
+  return count;
+}
+
+// Lists of the four grains of a cluster. Those about to touch come first, so that later rows are mostly idle.
+struct BuildRows {
+  CellGridView grid;
+  const float* search;
   const Index* source;
   ListReach reach;
   Index slots;
@@ -42,99 +60,160 @@ struct BuildRows {
   std::uint32_t* overflow_used;
   Index overflow_capacity;
 
-  // visit(j, touching) for each grain j within the skin of grain i.
-  template <class Visit>
-  GDESP_HD void for_each_near(Index i, const Visit& visit) const {
-    const GrainRecord& own = records[i];
-    const float cutoff = own.radius + reach.largest_radius + reach.skin + reach.drift;
-    const Vec3<std::int32_t> tile = grid.cluster_tile[i / exec::cluster_size];
-    const Vec3f place = grid.domain.relative_to_tile(position[i], tile);
-    for_each_candidate(grid, tile, place, place, cutoff,
-                       [&](Index first_cluster, Index last_cluster, const Vec3<std::int32_t>& offset) {
-      const Index end = (last_cluster + 1) * exec::cluster_size;
-      for (Index j = first_cluster * exec::cluster_size; j < end; ++j) {
-        const GrainRecord& other = records[j];
-        const Vec3f r = separation(unit, own, other);
-        const float limit = own.radius + other.radius + reach.skin;
-        const float r2 = dot(r, r);
-        if (limit > 0.0f && r2 < limit * limit && j != i && nearest_image(i, j, offset)) {
-          const float touch = own.radius + other.radius + 0.1f * reach.skin;
-          visit(j, r2 < touch * touch);
-        }
+  // Box around the grains of a cluster and the largest of their radii; false when there are none.
+  GDESP_HD static bool cluster_box(const float* r, Vec3f& low, Vec3f& high, float& radius) {
+    radius = -1.0f;
+    for (int k = 0; k < exec::cluster_size; ++k) {
+      if (r[12 + k] < 0.0f) continue;
+      for (int axis = 0; axis < 3; ++axis) {
+        const float x = r[4 * axis + k];
+        low[axis] = radius > 0.0f ? real::min(low[axis], x) : x;
+        high[axis] = radius > 0.0f ? real::max(high[axis], x) : x;
+      }
+      radius = real::max(radius, r[12 + k]);
+    }
+    return radius > 0.0f;
+  }
+
+  // visit(j cluster, bits of pairs about to touch, bits of all pairs within the skin), for clusters with some.
+  template <class Lanes, class Visit>
+  GDESP_HD void for_each_near(Index c, const Lanes& lanes, const Visit& visit) const {
+    using Real = typename Lanes::Real;
+    using real::max;
+    const float* own = search + search_floats * static_cast<std::int64_t>(c);
+    Vec3f low, high;
+    float radius;
+    if (!cluster_box(own, low, high, radius)) return;
+    const Real x = lanes.load_i(own), y = lanes.load_i(own + 4), z = lanes.load_i(own + 8), r = lanes.load_i(own + 12);
+    const Vec3f tile(grid.domain.tile_size);
+    const float cutoff = radius + reach.largest_radius + reach.skin + reach.drift;
+    for_each_candidate(grid, grid.cluster_tile[c], low, high, cutoff,
+                       [&](Index first_cluster, Index last_cluster, const Vec3<std::int32_t>& o) {
+      const Real xs = x - Real(static_cast<float>(o.x) * tile.x), ys = y - Real(static_cast<float>(o.y) * tile.y);
+      const Real zs = z - Real(static_cast<float>(o.z) * tile.z);
+      for (Index j = first_cluster; j <= last_cluster; ++j) {
+        const float* other = search + search_floats * static_cast<std::int64_t>(j);
+        const Real dx = xs - lanes.load_j(other), dy = ys - lanes.load_j(other + 4), dz = zs - lanes.load_j(other + 8);
+        const Real r2 = dx * dx + dy * dy + dz * dz;
+        const Real sum = r + lanes.load_j(other + 12);
+        const Real limit = max(sum + Real(reach.skin), Real(0.0f)), touch = max(sum + Real(0.1f * reach.skin), Real(0.0f));
+        unsigned all = lanes.bits(r2 < limit * limit);
+        if (all == 0) continue;
+        if (j == c && o.x == 0 && o.y == 0 && o.z == 0) all &= ~0x8421u;
+        if (all != 0) visit(j, all & lanes.bits(r2 < touch * touch), all);
       }
     });
   }
-  // One block along a periodic axis shows the same grain in several images: only the nearest counts.
-  GDESP_HD bool nearest_image(Index i, Index j, const Vec3<std::int32_t>& offset) const {
-    const Vec3<std::int32_t> tile_i = grid.cluster_tile[i / exec::cluster_size];
-    const Vec3<std::int32_t> tile_j = grid.cluster_tile[j / exec::cluster_size];
-    for (int axis = 0; axis < 3; ++axis) {
-      const std::int64_t tiles = static_cast<std::int64_t>(tile_i[axis]) + offset[axis] - tile_j[axis];
-      const std::int64_t apart = position[i][axis] - position[j][axis];
-      const std::int64_t image = apart - tiles * (std::int64_t{1} << Domain::fraction_bits);
-      if (image != static_cast<std::int32_t>(apart)) return false;
-    }
-    return true;
-  }
 
-  GDESP_HD void copy_history(Index i, Index j, ContactRow& row, RollingRow* roll, int lane) const {
-    const Index old_i = source ? source[i] : i, old_j = source ? source[j] : j;
-    const RowRange old = old_range[old_i];
-    for (Index k = 0; k * 8 < old.count; ++k) {
-      const Index index = k == 0 ? old_i : old.overflow + k - 1;
-      const ContactRow& from = old_rows[index];
-      for (int l = 0; l < 8; ++l) {
-        if (from.neighbour[l] != old_j) continue;
-        row.fx[lane] = from.fx[l];
-        row.fy[lane] = from.fy[l];
-        row.fz[lane] = from.fz[l];
-        if (!roll) return;
-        roll->mx[lane] = old_rolling[index].mx[l];
-        roll->my[lane] = old_rolling[index].my[l];
-        roll->mz[lane] = old_rolling[index].mz[l];
-        return;
-      }
-    }
-  }
-  GDESP_HD void put(Index i, Index place, Index overflow, Index j, bool touching) const {
-    const Index k = place / 8;
-    const Index index = k == 0 ? i : overflow + k - 1;
-    rows[index].neighbour[place % 8] = j;
-    if (touching && !first) copy_history(i, j, rows[index], rolling ? rolling + index : nullptr, place % 8);
-  }
+  GDESP_HD Index row_index(Index slot, Index overflow, Index k) const { return k == 0 ? slot : overflow + k - 1; }
   GDESP_HD void clear(Index index) const {
     ContactRow& row = rows[index];
-    for (int l = 0; l < 8; ++l) {
-      row.neighbour[l] = slots;
-      row.fx[l] = row.fy[l] = row.fz[l] = 0.0f;
-    }
+    for (int l = 0; l < 8; ++l) row.neighbour[l] = slots;
+    for (int l = 0; l < 8; ++l) row.fx[l] = row.fy[l] = row.fz[l] = 0.0f;
     if (!rolling) return;
     RollingRow& roll = rolling[index];
     for (int l = 0; l < 8; ++l) roll.mx[l] = roll.my[l] = roll.mz[l] = 0.0f;
   }
-
-  GDESP_HD void operator()(Index i) const {
-    range[i] = RowRange{};
-    if (records[i].radius < 0.0f) return;
-    Candidates found;
-    for_each_near(i, [&](Index j, bool touching) { found.add(j, touching); });
-    const Index extra = found.count() > 8 ? (found.count() - 1) / 8 : 0;
-    Index overflow = 0;
-    if (extra > 0) {
-      const Index used = static_cast<Index>(exec::add_to_counter(overflow_used, static_cast<std::uint32_t>(extra)));
-      if (used + extra > overflow_capacity) return;  // the caller sees the count, enlarges and repeats
-      overflow = slots + used;
-    }
-    range[i] = {found.count(), overflow};
-    clear(i);
-    for (Index k = 0; k < extra; ++k) clear(overflow + k);
-    if (!found.overflowed()) {
-      for (Index k = 0; k < found.near_count; ++k) put(i, k, overflow, found.near[k], true);
-      for (Index k = 0; k < found.far_count; ++k) put(i, found.near_count + k, overflow, found.far[k], false);
+  GDESP_HD void copy_history(Index i, Index j, Index index, int lane) const {
+    const Index old_i = source ? source[i] : i, old_j = source ? source[j] : j;
+    const RowRange old = old_range[old_i];
+    for (Index k = 0; k * 8 < old.count; ++k) {
+      const Index from_index = row_index(old_i, old.overflow, k);
+      const ContactRow& from = old_rows[from_index];
+      int found = -1;
+      for (int l = 0; l < 8; ++l) found = from.neighbour[l] == old_j ? l : found;
+      if (found < 0) continue;
+      rows[index].fx[lane] = from.fx[found];
+      rows[index].fy[lane] = from.fy[found];
+      rows[index].fz[lane] = from.fz[found];
+      if (!rolling) return;
+      rolling[index].mx[lane] = old_rolling[from_index].mx[found];
+      rolling[index].my[lane] = old_rolling[from_index].my[found];
+      rolling[index].mz[lane] = old_rolling[from_index].mz[found];
       return;
     }
-    Index near_place = 0, far_place = found.near_count;
-    for_each_near(i, [&](Index j, bool touching) { put(i, touching ? near_place++ : far_place++, overflow, j, touching); });
+  }
+
+  // Where the pairs of the next j cluster go.
+  struct Places {
+    FourCounts near, far;
+  };
+  template <class Lanes>
+  GDESP_HD void put(Index c, const Lanes& lanes, Index overflow[4], Index j, unsigned near, unsigned all,
+                    Places& places) const {
+    const unsigned far = all & ~near;
+    lanes.for_each_bit(all, [&](int lane) {
+      const int i = lane >> 2, jj = lane & 3;
+      const bool touching = (near >> lane) & 1u;
+      const Index place = touching ? places.near[i] + ones_below(near, i, jj) : places.far[i] + ones_below(far, i, jj);
+      const Index slot = exec::cluster_size * c + i, other = exec::cluster_size * j + jj;
+      const Index index = row_index(slot, overflow[i], place / 8);
+      rows[index].neighbour[place % 8] = other;
+      if (touching && !first) copy_history(slot, other, index, place % 8);
+    });
+    places.near.add(near);
+    places.far.add(far);
+  }
+
+  // Takes the rows behind the first of each grain; false when there is no room (the caller enlarges and repeats).
+  template <class Lanes>
+  GDESP_HD bool take_rows(Index c, const Lanes& lanes, const FourCounts& all, Index overflow[4]) const {
+    Index extra[4], total = 0;
+    for (int i = 0; i < 4; ++i) {
+      extra[i] = all[i] > 8 ? (all[i] - 1) / 8 : 0;
+      total += extra[i];
+    }
+    Index next = slots;
+    if (total > 0) next += static_cast<Index>(lanes.allocate(overflow_used, static_cast<std::uint32_t>(total)));
+    const bool fits = next + total <= slots + overflow_capacity;
+    for (int i = 0; i < 4; ++i) {
+      overflow[i] = extra[i] > 0 ? next : 0;
+      next += extra[i];
+    }
+    lanes.for_each_i([&](int i) {
+      const Index slot = exec::cluster_size * c + i;
+      range[slot] = fits ? RowRange{all[i], overflow[i]} : RowRange{};
+      if (!fits || all[i] == 0) return;
+      for (Index k = 0; k <= extra[i]; ++k) clear(row_index(slot, overflow[i], k));
+    });
+    lanes.share_memory();
+    return fits;
+  }
+
+  template <class Lanes>
+  GDESP_HD void operator()(Index c, const Lanes& lanes) const {
+    FourCounts near_count, all_count;
+    Places places;
+    Index overflow[4];
+#if defined(__CUDA_ARCH__)
+    // Two walks: count, fill.
+    for_each_near(c, lanes, [&](Index, unsigned near, unsigned all) {
+      near_count.add(near);
+      all_count.add(all);
+    });
+    if (!take_rows(c, lanes, all_count, overflow)) return;
+    places.far = near_count;
+    for_each_near(c, lanes, [&](Index j, unsigned near, unsigned all) { put(c, lanes, overflow, j, near, all, places); });
+#else
+    // One walk into a buffer; a second walk when it does not hold all.
+    struct Found { Index j; std::uint16_t near, all; };
+    constexpr Index buffer_size = 512;
+    Found buffer[buffer_size];
+    Index found = 0;
+    for_each_near(c, lanes, [&](Index j, unsigned near, unsigned all) {
+      if (found < buffer_size) buffer[found] = {j, static_cast<std::uint16_t>(near), static_cast<std::uint16_t>(all)};
+      ++found;
+      near_count.add(near);
+      all_count.add(all);
+    });
+    if (!take_rows(c, lanes, all_count, overflow)) return;
+    places.far = near_count;
+    if (found <= buffer_size) {
+      for (Index k = 0; k < found; ++k) put(c, lanes, overflow, buffer[k].j, buffer[k].near, buffer[k].all, places);
+      return;
+    }
+    for_each_near(c, lanes, [&](Index j, unsigned near, unsigned all) { put(c, lanes, overflow, j, near, all, places); });
+#endif
   }
 };
 
@@ -143,7 +222,7 @@ struct BuildRows {
 template <class Exec>
 ContactRows<Exec>::ContactRows(const Exec& exec, bool rolling)
     : exec_(exec), rolling_on_(rolling), range_(exec), old_range_(exec), rows_(exec), old_rows_(exec), rolling_(exec),
-      old_rolling_(exec), overflow_used_(exec) {
+      old_rolling_(exec), search_(exec), overflow_used_(exec) {
   overflow_used_.resize_discard(1);
 }
 
@@ -155,6 +234,8 @@ void ContactRows<Exec>::build(const ClusterSet<Exec>& set, const Index* source, 
   rolling_.swap(old_rolling_);
   const Index slots = set.slots();
   const CellGridView grid = set.view();
+  search_.resize_discard(4 * static_cast<std::size_t>(slots));
+  exec::parallel_for(exec_, "dem::contact_rows", slots, PackSearch{grid, records, position, search_.data()});
   overflow_capacity_ = overflow_capacity_ > slots / 4 ? overflow_capacity_ : slots / 4 + 16;
   while (true) {
     const auto total = static_cast<std::size_t>(slots) + static_cast<std::size_t>(overflow_capacity_);
@@ -162,11 +243,10 @@ void ContactRows<Exec>::build(const ClusterSet<Exec>& set, const Index* source, 
     rows_.resize_discard(total);
     if (rolling_on_) rolling_.resize_discard(total);
     overflow_used_.fill_bytes(0);
-    exec::parallel_for(exec_, "dem::contact_rows", slots,
-                       BuildRows{grid, position_unit(grid.domain), records, position, source, reach, slots,
-                                 first, old_range_.data(), old_rows_.data(), old_rolling_.data(), range_.data(),
-                                 rows_.data(), rolling_on_ ? rolling_.data() : nullptr, overflow_used_.data(),
-                                 overflow_capacity_});
+    exec::pair_pass(exec_, "dem::contact_rows", set.clusters(),
+                    BuildRows{grid, search_.data(), source, reach, slots, first, old_range_.data(), old_rows_.data(),
+                              old_rolling_.data(), range_.data(), rows_.data(), rolling_on_ ? rolling_.data() : nullptr,
+                              overflow_used_.data(), overflow_capacity_});
     const Index used = static_cast<Index>(overflow_used_.read(0));
     if (used <= overflow_capacity_) break;
     overflow_capacity_ = used + used / 8;

@@ -47,6 +47,7 @@ class ContactRows {
   Array<RowRange, Exec> range_, old_range_;
   Array<ContactRow, Exec> rows_, old_rows_;
   Array<RollingRow, Exec> rolling_, old_rolling_;
+  Array<float, Exec> search_;            // places and radii by cluster
   Array<std::uint32_t, Exec> overflow_used_;
   Index overflow_capacity_ = 0;
 };

@@ -17,7 +17,7 @@ constexpr std::uint64_t checkpoint_mark = 0x31304d4544504447ull;  // "GDPDEM01"
 
 struct Header {
   std::uint64_t mark = checkpoint_mark;
-  double time = 0.0, half_before = 0.0, drift = 0.0;
+  double time = 0.0, half_before = 0.0, drift = 0.0, odometer = 0.0;
   float moved2 = 0.0f, speed2 = 0.0f, overlap = 0.0f;
   std::int32_t must_rebuild = 0, rolling = 0, reserved = 0;
   std::int64_t substeps = 0, rebuilds = 0;
@@ -157,6 +157,7 @@ std::vector<char> GrainSystem<Exec>::save() const {
   header.speed2 = speed2_;
   header.overlap = overlap_;
   header.drift = drift_;
+  header.odometer = odometer_;
   header.must_rebuild = must_rebuild_ ? 1 : 0;
   header.rolling = contact_.rolling_friction > 0.0 ? 1 : 0;
   header.substeps = substeps_;
@@ -172,6 +173,7 @@ std::vector<char> GrainSystem<Exec>::save() const {
   w.put(now_.to_host());
   w.put(velocity_.to_host());
   w.put(spin_.to_host());
+  w.put(quiet_until_.to_host());
   const OrderedRows ordered =
       in_order(contacts_.ranges().to_host(), contacts_.rows().to_host(), contacts_.rolling_rows().to_host());
   w.put(ordered.range);
@@ -202,6 +204,8 @@ void GrainSystem<Exec>::load(const std::vector<char>& bytes) {
   now_.assign(r.get_vector<GrainRecord>());
   velocity_.assign(r.get_vector<Vec3f>());
   spin_.assign(r.get_vector<Vec3f>());
+  const auto quiet_until = r.get_vector<float>();
+  quiet_until_.assign(quiet_until);
   const auto range = r.get_vector<RowRange>();
   const auto rows = r.get_vector<ContactRow>();
   const auto rolling = r.get_vector<RollingRow>();
@@ -216,6 +220,7 @@ void GrainSystem<Exec>::load(const std::vector<char>& bytes) {
   time_ = header.time;
   half_before_ = header.half_before;
   drift_ = header.drift;
+  odometer_ = header.odometer;
   moved2_ = header.moved2;
   speed2_ = header.speed2;
   overlap_ = header.overlap;
@@ -223,13 +228,14 @@ void GrainSystem<Exec>::load(const std::vector<char>& bytes) {
   substeps_ = static_cast<long>(header.substeps);
   rebuilds_ = static_cast<long>(header.rebuilds);
   lost_ = header.lost;
-  restore_lists(range, rows, rolling, wall_history);
+  restore_lists(range, rows, rolling, wall_history, quiet_until);
 }
 
 template <class Exec>
 void GrainSystem<Exec>::restore_lists(const std::vector<RowRange>& range, const std::vector<ContactRow>& rows,
                                       const std::vector<RollingRow>& rolling,
-                                      const std::vector<WallHistory>& wall_history) {
+                                      const std::vector<WallHistory>& wall_history,
+                                      const std::vector<float>& quiet_until) {
   scratch_position_.resize_discard(static_cast<std::size_t>(slots_));
   exec::parallel_for(exec_, "dem::restore", slots_,
                      StartPositions{position_.data(), start_.data(), scratch_position_.data()});
@@ -243,7 +249,10 @@ void GrainSystem<Exec>::restore_lists(const std::vector<RowRange>& range, const 
   contacts_.rolling_rows().assign(rolling);
   if (!walls_.empty()) {
     walls_.history().assign(wall_history);
-    walls_.build(set_, scratch_position_, now_.data(), listed_poses_, static_cast<float>(skin_), false);
+    // Asks every grain, as the lists were made from readings that are gone; the readings saved are then put back.
+    quiet_until_.fill_bytes(0);
+    walls_.build(set_, scratch_position_, now_.data(), listed_poses_, wall_reach(), false);
+    quiet_until_.assign(quiet_until);
   }
   next_.assign(now_.to_host());
   radius_.resize_discard(static_cast<std::size_t>(slots_));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/error.hpp"
 #include "dem/grain_motion.hpp"
@@ -111,9 +112,10 @@ GrainSystem<Exec>::GrainSystem(const Exec& exec, const Domain& domain, const Gra
                                const ContactParameters& contact, const TriangleTable& walls, const Vec3d& gravity)
     : exec_(exec), domain_(domain), laws_(make_contact_laws(contact, domain.dimensions)), contact_(contact), gravity_(gravity),
       contacts_(exec, contact.rolling_friction > 0.0), position_(exec), sorted_position_(exec), id_(exec), group_(exec), now_(exec),
-      next_(exec), velocity_(exec), spin_(exec), start_(exec), radius_(exec), mass_(exec), drag_impulse_(exec),
+      next_(exec), velocity_(exec), spin_(exec), start_(exec), radius_(exec), mass_(exec), quiet_until_(exec),
+      drag_impulse_(exec),
       measure_(exec), held_(exec), scratch_position_(exec), scratch_id_(exec), scratch_group_(exec),
-      scratch_vector_(exec) {
+      scratch_vector_(exec), scratch_float_(exec) {
   const GrainStart state = make_grain_start(domain, grains);
   largest_radius_ = state.largest_radius;
   smallest_radius_ = state.smallest_radius;
@@ -133,6 +135,7 @@ GrainSystem<Exec>::GrainSystem(const Exec& exec, const Domain& domain, const Gra
   now_.assign(state.record);
   velocity_.assign(state.velocity);
   spin_.assign(state.spin);
+  quiet_until_.assign(std::vector<float>(state.record.size(), 0.0f));
   speed2_ = state.speed2;
   measure_.resize_discard(2);
   list_now();
@@ -179,17 +182,27 @@ BodyMotionState GrainSystem<Exec>::body_state(std::size_t number) const {
 }
 
 template <class Exec>
+double GrainSystem<Exec>::largest_body_move(const std::vector<BodyMoment>& moments) const {
+  double largest = 0.0;
+  for (std::size_t b = 1; b < moments.size() && b < listed_poses_.size(); ++b) {
+    const BodyMotionState state = body_state(b);
+    // A body that vanishes or comes back changes everything.
+    if ((listed_poses_[b].present != 0) != state.present) return std::numeric_limits<double>::infinity();
+    const double reach = walls_.body_reach(static_cast<int>(b), state.centre_initial);
+    if (state.present) largest = std::max(largest, moved_since(listed_poses_[b], moments[b], reach));
+  }
+  return largest;
+}
+
+template <class Exec>
 bool GrainSystem<Exec>::stale(const std::vector<BodyMoment>& moments) const {
   const double half = 0.5 * skin_;
-  if (must_rebuild_ || static_cast<double>(moved2_) > half * half) return true;
-  for (std::size_t b = 1; b < moments.size(); ++b) {
-    const ListedPose& listed = listed_poses_[b];
-    const BodyMotionState state = body_state(b);
-    if ((listed.present != 0) != state.present) return true;
-    const double reach = walls_.body_reach(static_cast<int>(b), state.centre_initial);
-    if (state.present && moved_since(listed, moments[b], reach) > half) return true;
-  }
-  return false;
+  return must_rebuild_ || static_cast<double>(moved2_) > half * half || largest_body_move(moments) > half;
+}
+
+template <class Exec>
+WallReach GrainSystem<Exec>::wall_reach() {
+  return {static_cast<float>(skin_), odometer_, 3.0 * largest_radius_, quiet_until_.data()};
 }
 
 template <class Exec>
@@ -215,6 +228,7 @@ void GrainSystem<Exec>::sort() {
   gather(group_, scratch_group_, std::int32_t{0});
   gather(velocity_, scratch_vector_, Vec3f{});
   gather(spin_, scratch_vector_, Vec3f{});
+  gather(quiet_until_, scratch_float_, 0.0f);
   shrink_discard(exec_, next_, slots_ + 1);
   exec::parallel_for(exec_, "dem::sort", slots_ + 1, GatherRecords{set_.source(), now_.data(), slots_, next_.data()});
   now_.swap(next_);
@@ -240,14 +254,20 @@ void GrainSystem<Exec>::list(const std::vector<BodyMoment>& moments) {
 template <class Exec>
 void GrainSystem<Exec>::rebuild(const std::vector<BodyMoment>& moments, bool sorted_anew) {
   synchronize_positions();
-  drift_ += std::sqrt(static_cast<double>(moved2_));
+  const double moved = std::sqrt(static_cast<double>(moved2_)), body_move = largest_body_move(moments);
+  drift_ += moved;
+  odometer_ += moved + body_move;
+  if (!(odometer_ < 1.0e2 * largest_radius_) || must_rebuild_) {  // readings are in single precision: start anew
+    odometer_ = 0.0;
+    quiet_until_.fill_bytes(0);
+  }
   if (sorted_anew) sort();
   list(moments);
   contacts_.build(set_, sorted_anew ? set_.source() : nullptr, now_.data(), position_.data(),
                   {static_cast<float>(largest_radius_), static_cast<float>(skin_), static_cast<float>(drift_)},
                   !listed_);
   if (!walls_.empty()) {
-    walls_.build(set_, position_, now_.data(), listed_poses_, static_cast<float>(skin_), !listed_);
+    walls_.build(set_, position_, now_.data(), listed_poses_, wall_reach(), !listed_);
   }
   shrink_discard(exec_, next_, slots_ + 1);
   exec::parallel_for(exec_, "dem::sort", slots_ + 1, CopyRecords{now_.data(), next_.data()});
@@ -326,7 +346,7 @@ void GrainSystem<Exec>::advance(double dt, int substeps) {
   const double h = dt / substeps;
   for (int k = 0; k < substeps; ++k) {
     const std::vector<BodyMoment> now = moments(static_cast<double>(k) / substeps, dt);
-    if (stale(now)) rebuild(now, !fluid_.drag_coefficient && moved_since_sorting() > largest_radius_);
+    if (stale(now)) rebuild(now, !fluid_.drag_coefficient);  // sorting costs a tenth of listing
     std::vector<BodyPose> poses;
     for (std::size_t b = 0; b < now.size(); ++b) poses.push_back(pose_since(listed_poses_[b], body_state(b), now[b]));
     const HalfSteps half{static_cast<float>(half_before_), static_cast<float>(0.5 * h)};

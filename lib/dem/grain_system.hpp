@@ -108,6 +108,8 @@ class GrainSystem {
   template <class T>
   void gather(Array<T, Exec>& values, Array<T, Exec>& scratch, const T& padding);
   // Bodies; number 0 are the walls at rest.
+  double largest_body_move(const std::vector<BodyMoment>& moments) const;
+  WallReach wall_reach();
   std::vector<BodyMoment> moments(double share, double duration) const;
   BodyMotionState body_state(std::size_t number) const;
   // Sub-steps and sums.
@@ -117,7 +119,8 @@ class GrainSystem {
   template <class Law>
   GrainSums sums_with(const ContactLaws<Law>& pair);
   void restore_lists(const std::vector<RowRange>& range, const std::vector<ContactRow>& rows,
-                     const std::vector<RollingRow>& rolling, const std::vector<WallHistory>& wall_history);
+                     const std::vector<RollingRow>& rolling, const std::vector<WallHistory>& wall_history,
+                     const std::vector<float>& quiet_until);
 
   Exec exec_;
   Domain domain_;
@@ -128,6 +131,7 @@ class GrainSystem {
   double time_ = 0.0, half_before_ = 0.0;
   float moved2_ = 0.0f, speed2_ = 0.0f, overlap_ = 0.0f;
   double drift_ = 0.0;                            // m: no grain moved farther since it was sorted
+  double odometer_ = 0.0;                         // m: no grain and body together moved farther since the start
   bool listed_ = false, must_rebuild_ = true;
   long rebuilds_ = 0, sorts_ = 0, substeps_ = 0;
   Index lost_ = 0;
@@ -149,6 +153,7 @@ class GrainSystem {
   Array<Vec3f, Exec> velocity_, spin_;            ///< at half steps
   Array<Vec3<std::int32_t>, Exec> start_;         ///< fraction bits when the lists were made
   Array<float, Exec> radius_, mass_;
+  Array<float, Exec> quiet_until_;                ///< odometer reading up to which a grain is far from walls
   FluidOnGrains fluid_;                           ///< pointers of the caller, and drag_impulse_
   Array<Vec3d, Exec> drag_impulse_;
   Array<exec::Largest, Exec> measure_;            ///< of the walls, of the grains
@@ -158,6 +163,7 @@ class GrainSystem {
   Array<std::uint32_t, Exec> scratch_id_;
   Array<std::int32_t, Exec> scratch_group_;
   Array<Vec3f, Exec> scratch_vector_;
+  Array<float, Exec> scratch_float_;
 };
 
 }  // namespace gdesp::dem

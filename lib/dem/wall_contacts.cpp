@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem/wall_contacts.hpp"
 
+#include <cmath>
+
 namespace gdesp::dem {
 namespace {
 
@@ -58,7 +60,14 @@ struct WallSearch {
     }
     return sum;
   }
-  // visit(triangle, point) with the point in body coordinates (those of the corners).
+  // Whether the plane of a triangle is farther than reach: decides most cases.
+  GDESP_HD bool plane_is_far(Index t, const Vec3d& p, double reach) const {
+    const double height = dot(Vec3d(mesh.frame[t].n), p - mesh.corners[t].a);
+    const double rounding = 2.0e-7 * (std::fabs(p.x - mesh.corners[t].a.x) + std::fabs(p.y - mesh.corners[t].a.y) +
+                                      std::fabs(p.z - mesh.corners[t].a.z));
+    return std::fabs(height) > reach + rounding;
+  }
+  // visit(triangle, point, distance) with the point in body coordinates (those of the corners).
   template <class Visit>
   GDESP_HD void in_body(Index body, const Vec3d& point, double reach, const Visit& visit) const {
     const WallBody& b = mesh.body[body];
@@ -76,7 +85,9 @@ struct WallSearch {
         continue;
       }
       for (Index t = node.first; t < node.first + node.count; ++t) {
-        if (triangle_distance2(point, mesh.corners[t]) <= reach * reach) visit(t, point);
+        if (plane_is_far(t, point, reach)) continue;
+        const double distance2 = triangle_distance2(point, mesh.corners[t]);
+        if (distance2 <= reach * reach) visit(t, point, distance2);
       }
     }
   }
@@ -87,10 +98,11 @@ struct WallSearch {
     const double period = domain.tile_size[axis] * domain.tiles[axis], place = x - domain.lower[axis];
     return shift > 0 ? place < reach : place > period - reach;
   }
+  GDESP_HD double list_reach(Index i) const { return static_cast<double>(records[i].radius) + skin; }
+  // The triangles within reach (m) of the centre of grain i.
   template <class Visit>
-  GDESP_HD void operator()(Index i, const Visit& visit) const {
+  GDESP_HD void operator()(Index i, double reach, const Visit& visit) const {
     const Vec3d x = domain.metres(position[i]);
-    const double reach = static_cast<double>(records[i].radius) + skin;
     for (Index body = 0; body < mesh.bodies; ++body) {
       const ListedPose& pose = poses[body];
       if (mesh.body[body].root < 0 || !pose.present) continue;
@@ -107,18 +119,32 @@ struct WallSearch {
   }
 };
 
+// Looks for walls where they may have come near: a grain that was far from all walls is not asked again before grains
+// and bodies together have moved that far (odometer).
 struct CountRows {
   WallSearch search;
+  double odometer, look_ahead;   // m
+  float* quiet_until;            // m, by slot
   Index* near;
   Index* rows_needed;
-  GDESP_HD void operator()(Index i) const {
-    Index count = 0;
+
+  GDESP_HD Index count(Index i) const {
     const GrainRecord& own = search.records[i];
-    if (own.radius > 0.0f && own.mobility > 0.0f) {
-      search(i, [&](Index, const Vec3d&) { ++count; });
-    }
-    near[i] = count > 0 ? 1 : 0;
-    rows_needed[i] = (count + 7) / 8;
+    if (!(own.radius > 0.0f && own.mobility > 0.0f) || static_cast<double>(quiet_until[i]) > odometer) return 0;
+    Index found = 0;
+    search(i, search.list_reach(i), [&](Index, const Vec3d&, double) { ++found; });
+    if (found > 0) return found;
+    double nearest2 = (search.list_reach(i) + look_ahead) * (search.list_reach(i) + look_ahead);
+    search(i, search.list_reach(i) + look_ahead, [&](Index, const Vec3d&, double distance2) {
+      nearest2 = distance2 < nearest2 ? distance2 : nearest2;
+    });
+    quiet_until[i] = static_cast<float>(odometer + 0.999 * (::sqrt(nearest2) - search.list_reach(i)));
+    return 0;
+  }
+  GDESP_HD void operator()(Index i) const {
+    const Index found = count(i);
+    near[i] = found > 0 ? 1 : 0;
+    rows_needed[i] = (found + 7) / 8;
   }
 };
 
@@ -207,7 +233,7 @@ struct FillRows {
     row_begin[w] = begin;
     for (Index r = begin; r < end; ++r) clear(rows[r]);
     Index place = 0;
-    search(i, [&](Index t, const Vec3d& p) {
+    search(i, search.list_reach(i), [&](Index t, const Vec3d& p, double) {
       put(rows[begin + place / 8], place % 8, t, p);
       ++place;
     });
@@ -258,13 +284,14 @@ WallMeshView WallContacts<Exec>::mesh_view() const {
 
 template <class Exec>
 void WallContacts<Exec>::build(const ClusterSet<Exec>& set, const Array<FixedPosition, Exec>& position,
-                               GrainRecord* records, const std::vector<ListedPose>& poses, float skin, bool first) {
+                               GrainRecord* records, const std::vector<ListedPose>& poses, const WallReach& reach,
+                               bool first) {
   const Index slots = set.slots();
   const auto n = static_cast<std::size_t>(slots);
   listed_.assign(poses);
   for (auto* array : {&near_, &rows_needed_, &ordinal_, &first_row_}) array->resize_discard(n + 1);
-  const WallSearch search{domain_, mesh_view(), listed_.data(), position.data(), records, skin};
-  exec::parallel_for(exec_, "dem::wall_lists", slots, CountRows{search, near_.data(), rows_needed_.data()});
+  const WallSearch search{domain_, mesh_view(), listed_.data(), position.data(), records, reach.skin};
+  exec::parallel_for(exec_, "dem::wall_lists", slots, CountRows{search, reach.odometer, reach.look_ahead, reach.quiet_until, near_.data(), rows_needed_.data()});
   grains_ = exec::exclusive_scan(exec_, "dem::wall_lists", near_.data(), ordinal_.data(), slots);
   const Index rows = exec::exclusive_scan(exec_, "dem::wall_lists", rows_needed_.data(), first_row_.data(), slots);
   const auto grains = static_cast<std::size_t>(grains_);

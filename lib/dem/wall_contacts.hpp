@@ -14,6 +14,15 @@ struct ListedPose {
   std::int32_t present = 1, reserved = 0;
 };
 
+/// How far to look for walls. The odometer is the way that no grain and body together have exceeded since the start;
+/// quiet_until (by slot) is its reading up to which a grain is known to be far from walls.
+struct WallReach {
+  float skin = 0.0f;             ///< m
+  double odometer = 0.0;         ///< m
+  double look_ahead = 0.0;       ///< m, beyond the skin
+  float* quiet_until = nullptr;  ///< m
+};
+
 template <class Exec>
 class WallContacts {
  public:
@@ -25,11 +34,11 @@ class WallContacts {
   int bodies() const { return static_cast<int>(host_bodies_.size()); }   ///< with the walls at rest as number 0
   double body_reach(int body, const Vec3d& centre) const;              ///< m, farthest corner from the centre
 
-  /// Lists the triangles within radius + skin of each grain that may move, and takes over the contacts of grains that
+  /// Lists the triangles within radius + reach.skin of each grain that may move, and takes over the contacts of grains that
   /// had some (GrainRecord::wall names their old number; it becomes the new one). `poses`: by body number.
   /// `first`: grains whose centre lies behind a face, less than a radius deep, count as come from its front.
   void build(const ClusterSet<Exec>& set, const Array<FixedPosition, Exec>& position, GrainRecord* records,
-             const std::vector<ListedPose>& poses, float skin, bool first);
+             const std::vector<ListedPose>& poses, const WallReach& reach, bool first);
   /// Forces at time n; poses by body number.
   template <class Law>
   void step(const ContactLaws<Law>& laws, const GrainRecord* now, const Vec3<std::int32_t>* start,

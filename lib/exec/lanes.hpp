@@ -95,6 +95,28 @@ struct HostLanes {
     return bits != 0;
 #endif
   }
+  /// Bit 4 * i + j of each lane that is true.
+  static unsigned bits(const Mask& m) {
+#if defined(__AVX512F__)
+    return _mm512_test_epi32_mask(reinterpret_cast<__m512i>(m), reinterpret_cast<__m512i>(m));
+#else
+    unsigned b = 0;
+    for (int k = 0; k < 16; ++k) b |= static_cast<unsigned>(m[k] & 1) << k;
+    return b;
+#endif
+  }
+  /// visit(lane) for each bit: one after the other here, each by its own thread on a device.
+  template <class Visit>
+  static void for_each_bit(unsigned b, const Visit& visit) {
+    for (; b != 0; b &= b - 1) visit(__builtin_ctz(b));
+  }
+  /// visit(i) for the four i particles.
+  template <class Visit>
+  static void for_each_i(const Visit& visit) {
+    for (int i = 0; i < 4; ++i) visit(i);
+  }
+  /// What a lane wrote to memory before, the others of its cluster may read after.
+  static void share_memory() {}
   /// True in the lane that writes for its cluster.
   static constexpr bool leader() { return true; }
   /// Takes `amount` places from a counter that all clusters share; returns the first.

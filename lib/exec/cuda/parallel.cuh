@@ -33,6 +33,16 @@ struct DeviceLanes {
     if ((lane & 3) == 0) p[lane >> 2] = a;
   }
   __device__ bool any(bool m) const { return __any_sync(half_mask, m) != 0; }
+  __device__ unsigned bits(bool m) const { return (__ballot_sync(half_mask, m) >> (half_mask & 0xffffu ? 0 : 16)) & 0xffffu; }
+  template <class Visit>
+  __device__ void for_each_bit(unsigned b, const Visit& visit) const {
+    if ((b >> lane) & 1u) visit(lane);
+  }
+  template <class Visit>
+  __device__ void for_each_i(const Visit& visit) const {
+    if ((lane & 3) == 0) visit(lane >> 2);
+  }
+  __device__ void share_memory() const { __syncwarp(half_mask); }
   __device__ bool leader() const { return lane == 0; }
   __device__ std::uint32_t allocate(std::uint32_t* counter, std::uint32_t amount) const {
     const unsigned first = lane == 0 ? atomicAdd(counter, amount) : 0u;
