@@ -10,6 +10,7 @@
 #include "exec/array.hpp"
 #include "exec/profile.hpp"
 #include "frame_output.hpp"
+#include "guard.hpp"
 #include "run_files.hpp"
 #include "session.hpp"
 
@@ -136,7 +137,14 @@ class Run {
   }
 
   void note() {
-    log_.add(simulation().diagnostics());
+    latest_ = simulation().diagnostics();
+    log_.add(latest_);
+    try {
+      guard_.check(latest_, [](const std::string& text) { cli::warning(text); });
+    } catch (const Error&) {
+      output_.push(frame_of(session_));  // for people to look at
+      throw;
+    }
   }
 
   void tell(cli::Progress& progress, double first) {
@@ -168,7 +176,8 @@ class Run {
     ordered_json record{{"record", done ? "done" : "interrupted"}, {"run", session_.options.run_folder},
                               {"case", session_.options.case_path}, {"steps", simulation().step_count()},
                               {"t", simulation().time()}, {"wall_seconds", wall_seconds()},
-                              {"particles", session_.summary.moving_particles}, {"score", score()},
+                              {"particles", session_.summary.moving_particles},
+                        {"lost", latest_.lost_fluid + latest_.lost_grains}, {"score", score()},
                               {"device", session_.device}};
     if (!done && checkpoint_) {
       record["checkpoint"] = checkpoint_->path;
@@ -199,14 +208,19 @@ class Run {
   /// The frames so far reach the disk, the reader downstream hears of the failure; the failure itself matters more
   /// than trouble on the way.
   void fail(const std::string& message) {
-    try {
-      output_.drain();
-      write_status("failed", message);
-      if (!terminal_)
-        cli::write_record({{"record", "failed"}, {"reason", message}, {"message", message}, {"t", simulation().time()},
-                           {"step", simulation().step_count()}, {"run", session_.options.run_folder}});
-    } catch (const Error&) {
-    }
+    const auto attempt = [](const auto& part) {
+      try {
+        part();
+      } catch (...) {
+      }
+    };
+    attempt([&] { output_.drain(); });
+    attempt([&] { write_status("failed", message); });
+    if (terminal_) return;
+    attempt([&] {
+      cli::write_record({{"record", "failed"}, {"reason", message}, {"message", message}, {"t", simulation().time()},
+                         {"step", simulation().step_count()}, {"run", session_.options.run_folder}});
+    });
   }
 
   Session session_;
@@ -215,6 +229,8 @@ class Run {
   double earlier_seconds_ = 0.0, told_ = 0.0, saved_ = 0.0;  // s of wall time: before a resumption; last said, saved
   FrameOutput output_;
   DiagnosticsLog log_;
+  Diagnostics latest_;
+  Guard guard_;
   CheckpointFiles checkpoints_;
   std::optional<Checkpoint> checkpoint_;
   ordered_json description_;

@@ -97,8 +97,8 @@ Case make(double dp, const std::set<std::string>& kinds) {
   m.c.scene.title = "small dam break";
   m.c.scene.dimensions = m.three ? 3 : 2;
   m.c.scene.dp = dp;
-  m.c.scene.time.end = 0.2;
-  m.c.scene.time.output_interval = 0.05;
+  m.c.scene.time.end = m.three ? 0.1 : 0.2;
+  m.c.scene.time.output_interval = 0.25 * m.c.scene.time.end;
   m.c.domain = {{-4 * dp, m.three ? -4 * dp : -dp, -4 * dp}, {size.x + 4 * dp, m.three ? size.y + 4 * dp : dp, 2 * size.z}};
   m.c.scene.domain = m.c.domain;
   m.c.still_water_level = 0.2;
