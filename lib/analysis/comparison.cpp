@@ -118,19 +118,19 @@ Convergence assess_convergence(std::vector<double> spacing, std::vector<double> 
     c.kind = ConvergenceKind::oscillating;
     return c;
   }
-  double p = std::abs(std::log(1.0 / c.ratio)) / std::log(r21);
-  for (int k = 0; k < 500; ++k) {  // eq 3a with q(p) of eq 3b, s = 1
-    const double q = std::log((std::pow(r21, p) - 1.0) / (std::pow(r32, p) - 1.0));
-    const double next = std::abs(std::log(1.0 / c.ratio) + q) / std::log(r21);
-    if (!std::isfinite(next)) break;
-    const bool settled = std::abs(next - p) < 1e-12;
-    p = next;
-    if (settled) break;
-  }
-  if (c.ratio >= 1.0 || !(p > 0.05)) {  // differences that do not shrink have no order
+  // Equation 3 without its fixed point, which need not settle for unequal ratios: f = f0 + C h^p demands
+  // e32 / e21 = r21^p (r32^p - 1) / (r21^p - 1), whose right side grows with p from ln r32 / ln r21 at p = 0.
+  const auto demanded = [&](double p) { return std::pow(r21, p) * std::expm1(p * std::log(r32)) / std::expm1(p * std::log(r21)); };
+  double low = 1e-3, high = 40.0;
+  if (1.0 / c.ratio <= demanded(low)) {
     c.kind = ConvergenceKind::diverging;
     return c;
   }
+  for (int k = 0; k < 100; ++k) {
+    const double middle = 0.5 * (low + high);
+    (demanded(middle) < 1.0 / c.ratio ? low : high) = middle;
+  }
+  const double p = 0.5 * (low + high);
   const double gain = std::pow(r21, p);
   c.order = p;
   c.extrapolated = (gain * f1 - f2) / (gain - 1.0);

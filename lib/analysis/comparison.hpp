@@ -37,9 +37,9 @@ std::optional<double> interpolate(const std::vector<double>& x, const std::vecto
 enum class ConvergenceKind { monotone, oscillating, diverging, too_close };
 
 /// Three grids: the procedure of the ASME Journal of Fluids Engineering (Celik et al. 2008, J. Fluids Eng. 130, 078001,
-/// doi 10.1115/1.2960953): observed order p from e21 = f2 - f1, e32 = f3 - f2 and the ratios r21, r32 (eqs 3a-3c,
-/// fixed point), extrapolated value f_ext = (r21^p f1 - f2) / (r21^p - 1) (eq 4), GCI = 1.25 |e21| / (r21^p - 1) (eq 7, absolute).
-/// Only for monotone convergence, 0 < e21/e32 < 1: otherwise the kind says why there is no order and no error bar.
+/// doi 10.1115/1.2960953): observed order p from e21 = f2 - f1, e32 = f3 - f2 and the ratios r21, r32 (eqs 3a-3c, solved
+/// by bisection), extrapolated value f_ext = (r21^p f1 - f2) / (r21^p - 1) (eq 4), GCI = 1.25 |e21| / (r21^p - 1) (eq 7, absolute).
+/// Only for monotone convergence, differences of one sign that shrink faster than the spacing's logarithm: otherwise the kind says why there is no order and no error bar.
 struct Convergence {
   ConvergenceKind kind = ConvergenceKind::monotone;
   double order = 0.0, extrapolated = 0.0, error_bar = 0.0;  ///< value's unit; NaN unless monotone

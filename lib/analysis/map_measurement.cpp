@@ -109,9 +109,39 @@ std::vector<GroundLine> MapMeasurement::run_up_lines() const {
   return lines;
 }
 
+// About twenty round elevations (of the scene) over the ground's range; case coordinates.
+std::vector<double> MapMeasurement::contour_levels() const {
+  double low = 1e300, high = -1e300;
+  for (const float z : ground_.value) {
+    if (std::isfinite(z)) low = std::min<double>(low, z), high = std::max<double>(high, z);
+  }
+  std::vector<double> levels;
+  if (!(high > low)) return levels;
+  const double unit = std::pow(10.0, std::floor(std::log10((high - low) / 20.0)));
+  double step = unit;
+  for (const double m : {2.0, 5.0, 10.0}) {
+    if (step < (high - low) / 20.0) step = m * unit;
+  }
+  const double up = info_.offset.z;
+  for (double z = std::ceil((low + up) / step) * step; z < high + up; z += step) levels.push_back(z - up);
+  return levels;
+}
+
 Figure MapMeasurement::figure() const {
   Figure figure;
   figure.panel_height_mm = 95.0;
+  const double missing = std::numeric_limits<double>::quiet_NaN();
+  Series ground, outline;  // all lines of a kind in one series, with gaps between
+  ground.style = MarkStyle::thin, ground.colour = 7;
+  outline.style = MarkStyle::line, outline.colour = 6;
+  const auto join = [&](Series& s, const auto& line) {
+    for (const auto& p : line) s.x.push_back(p.x + info_.offset.x), s.y.push_back(p.y + info_.offset.y);
+    s.x.push_back(missing), s.y.push_back(missing);
+  };
+  for (const GroundLine& line : run_up_lines()) join(outline, line);
+  for (const double z : contour_levels()) {
+    for (const auto& line : contour_lines(ground_, z)) join(ground, line);
+  }
   const auto add = [&](const char* title, const char* label, const Raster& r, double up) {
     ColourMap m;
     m.title = std::string(title) + ", " + info_.name;
@@ -121,12 +151,7 @@ Figure MapMeasurement::figure() const {
     m.x0 = r.x0 + info_.offset.x, m.y0 = r.y0 + info_.offset.y, m.dx = r.dx, m.nx = r.nx, m.ny = r.ny;
     m.value = r.value;
     for (float& v : m.value) v += static_cast<float>(up);
-    for (const GroundLine& line : run_up_lines()) {
-      Series s;
-      for (const Vec3d& p : line) s.x.push_back(p.x + info_.offset.x), s.y.push_back(p.y + info_.offset.y);
-      s.colour = 6;
-      m.overlay.push_back(std::move(s));
-    }
+    m.overlay = {ground, outline};
     figure.map.push_back(std::move(m));
   };
   add("Highest water level", "elevation (m)", level_, info_.offset.z);

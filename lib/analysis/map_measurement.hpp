@@ -38,6 +38,8 @@ class MapMeasurement : public Measurement {
   const RunInfo& info() const { return info_; }
 
  private:
+  std::vector<double> contour_levels() const;
+
   MapOptions options_;
   RunInfo info_;
   double threshold_ = 0.0, last_time_ = 0.0;

@@ -95,6 +95,7 @@ std::string curve(const std::string& block, const Series& s, int number, bool al
   const std::string point = colour + " pt " + std::to_string(marks[c]) + " ps 0.7";
   switch (s.style) {
     case MarkStyle::line: out << "$" << block << " with lines lw 2" << colour << " dt " << dash; break;
+    case MarkStyle::thin: out << "$" << block << " with lines lw 0.5" << colour << " dt 1"; break;
     case MarkStyle::dashes: out << "$" << block << " with lines lw 1.2 dt '-'" << colour; break;
     case MarkStyle::points:
       if (s.low.empty()) out << "$" << block << " with points" << point;
@@ -177,7 +178,7 @@ void write_map(std::ostream& out, const ColourMap& m, int index) {
   }
   out << "EOD\nset title " << quoted(m.title) << "\nset xlabel " << quoted(m.x_label) << "\nset ylabel "
       << quoted(m.y_label) << "\nset cblabel " << quoted(m.value_label)
-      << "\nunset logscale\nset size ratio -1\nset format x '%.0f'\nset format y '%.0f'\nset xtics autofreq\nset xtics rotate by -30\n";
+      << "\nunset logscale\nset size ratio -1\nset format x '%.7g'\nset format y '%.7g'\nset xtics autofreq\nset xtics rotate by -30\n";
   out << "set xrange [" << m.x0 - 0.5 * m.dx << ":" << m.x0 + (m.nx - 0.5) * m.dx << "]\nset yrange ["
       << m.y0 - 0.5 * m.dx << ":" << m.y0 + (m.ny - 0.5) * m.dx << "]\nunset key\n";
   for (std::size_t k = 0; k < m.overlay.size(); ++k) {

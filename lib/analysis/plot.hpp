@@ -10,7 +10,7 @@
 
 namespace gdesp::analysis {
 
-enum class MarkStyle { line, points, line_points, dashes, band, impulses };
+enum class MarkStyle { line, thin, points, line_points, dashes, band, impulses };
 
 struct Series {
   std::string label;              ///< empty: not in the legend
