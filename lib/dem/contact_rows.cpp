@@ -85,7 +85,7 @@ struct BuildRows {
     float radius;
     if (!cluster_box(own, low, high, radius)) return;
     const Real x = lanes.load_i(own), y = lanes.load_i(own + 4), z = lanes.load_i(own + 8), r = lanes.load_i(own + 12);
-    const Vec3f tile(grid.domain.tile_size);
+    const Vec3f tile = static_cast<Vec3f>(grid.domain.tile_size);
     const float cutoff = radius + reach.largest_radius + reach.skin + reach.drift;
     for_each_candidate(grid, grid.cluster_tile[c], low, high, cutoff,
                        [&](Index first_cluster, Index last_cluster, const Vec3<std::int32_t>& o) {

@@ -136,8 +136,8 @@ struct GrainStep {
                          dragged_velocity(old.y, share, force.y, drag, u.y),
                          dragged_velocity(old.z, share, force.z, drag, u.z)};
     if (writes) {
-      v.fluid.drag_impulse[i] += static_cast<double>(mass) * (Vec3d(velocity) - Vec3d(old)) -
-                                 static_cast<double>(kick) * Vec3d(force);
+      v.fluid.drag_impulse[i] += static_cast<double>(mass) * (static_cast<Vec3d>(velocity) - static_cast<Vec3d>(old)) -
+                                 static_cast<double>(kick) * static_cast<Vec3d>(force);
     }
     return velocity;
   }

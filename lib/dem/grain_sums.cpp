@@ -59,10 +59,10 @@ struct GrainTerms {
     const GrainRecord& own = records[i];
     if (own.radius < 0.0f) return s;
     const double m = own.mass;
-    const Vec3d v(Vec3f{own.vx, own.vy, own.vz}), surface(Vec3f{own.sx, own.sy, own.sz});
+    const Vec3d v{own.vx, own.vy, own.vz}, surface{own.sx, own.sy, own.sz};
     s.particles = 1;
     s.mass = m;
-    s.momentum = (own.mobility > 0.0f ? m : 0.0) * Vec3d(velocity[i]);
+    s.momentum = (own.mobility > 0.0f ? m : 0.0) * static_cast<Vec3d>(velocity[i]);
     s.kinetic_energy = 0.5 * m * (dot(v, v) + inertia_factor * dot(surface, surface));
     s.potential_energy = -m * dot(gravity, domain.metres(position[i]) - domain.lower);
     s.largest_speed = static_cast<float>(norm(v));

@@ -320,7 +320,7 @@ void GrainSystem<Exec>::run(const ContactLaws<Law>& pair, const ContactLaws<Law>
     overlap_ = std::max(overlap_, measure_.read(0).value[measure_overlap]);
   }
   GrainStepView view{contacts_.view(), position_unit(domain_), now_.data(), next_.data(), start_.data(),
-                     velocity_.data(), spin_.data(), walls_.forces(), fluid_, Vec3f(gravity_), inertia, half};
+                     velocity_.data(), spin_.data(), walls_.forces(), fluid_, static_cast<Vec3f>(gravity_), inertia, half};
   run_grain_step(exec_, pair, view, slots_, measure_.data() + 1);
   now_.swap(next_);
   const exec::Largest measured = measure_.read(1);

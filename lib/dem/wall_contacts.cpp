@@ -62,7 +62,7 @@ struct WallSearch {
   }
   // Whether the plane of a triangle is farther than reach: decides most cases.
   GDESP_HD bool plane_is_far(Index t, const Vec3d& p, double reach) const {
-    const double height = dot(Vec3d(mesh.frame[t].n), p - mesh.corners[t].a);
+    const double height = dot(static_cast<Vec3d>(mesh.frame[t].n), p - mesh.corners[t].a);
     const double rounding = 2.0e-7 * (std::fabs(p.x - mesh.corners[t].a.x) + std::fabs(p.y - mesh.corners[t].a.y) +
                                       std::fabs(p.z - mesh.corners[t].a.z));
     return std::fabs(height) > reach + rounding;
@@ -71,7 +71,7 @@ struct WallSearch {
   template <class Visit>
   GDESP_HD void in_body(Index body, const Vec3d& point, double reach, const Visit& visit) const {
     const WallBody& b = mesh.body[body];
-    const Vec3f p(point - b.middle);
+    const Vec3f p = static_cast<Vec3f>(point - b.middle);
     const float reach_f = static_cast<float>(reach) * 1.00001f;
     Index stack[64];
     int depth = 0;
@@ -215,7 +215,7 @@ struct FillRows {
         if (other_side || memory.count >= wall_contact_limit) continue;
         WallContact contact{};
         const double* m = search.poses[rows[r].body[l]].to_body;
-        contact.n = Vec3f(Vec3d{m[0] * n.x + m[3] * n.y + m[6] * n.z, m[1] * n.x + m[4] * n.y + m[7] * n.z,
+        contact.n = static_cast<Vec3f>(Vec3d{m[0] * n.x + m[3] * n.y + m[6] * n.z, m[1] * n.x + m[4] * n.y + m[7] * n.z,
                                 m[2] * n.x + m[5] * n.y + m[8] * n.z});
         contact.body = rows[r].body[l];
         memory.contact[memory.count++] = contact;
@@ -313,7 +313,7 @@ template <class Law>
 void WallContacts<Exec>::step(const ContactLaws<Law>& laws, const GrainRecord* now, const Vec3<std::int32_t>* start,
                               const std::vector<BodyPose>& poses, const HalfSteps& half, float inertia_factor,
                               exec::Largest* measure) {
-  pose_.assign(poses);
+  if (poses.size() > 1 || pose_.empty()) pose_.assign(poses);  // walls at rest stay where they are
   run_wall_step(exec_, laws,
                 WallStepView{mesh_view(), position_unit(domain_), now, start, slot_.data(), row_begin_.data(),
                              rows_.data(), gaps_.data(), pose_.data(), history_.data(), force_.data(), impulse_.data(),
