@@ -2,6 +2,7 @@
 // gdesp-run: from a case to the frames of its simulation.
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdlib>
 
 #include "explain.hpp"
@@ -32,5 +33,6 @@ int run(const std::vector<std::string>& arguments) {
 
 int main(int argc, char** argv) {
   wait_briefly(argv);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error with a message
   return gdesp::cli::run_tool("gdesp-run", argc, argv, run);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run_loop.hpp"
 
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <iostream>
@@ -64,6 +65,7 @@ class Run {
     try {
       const int code = steps();
       output_.drain();
+      if (reader_gone_) leave();
       finish(code);
       return code;
     } catch (const Error& problem) {
@@ -90,7 +92,21 @@ class Run {
   }
 
   void frame_written(const FramePaths& paths) {
-    if (!terminal_) cli::write_record(frame_record(paths, session_.options.case_path));
+    if (terminal_ || reader_gone_) return;
+    try {
+      cli::write_record(frame_record(paths, session_.options.case_path));
+    } catch (const Error&) {
+      throw;
+    } catch (...) {  // a closed pipe is no std::exception
+      closed_pipe_ = std::current_exception();
+      reader_gone_ = true;
+    }
+  }
+
+  /// Nobody reads our records any more: the tool ends quietly, and the run can go on later.
+  [[noreturn]] void leave() {
+    write_status(simulation().time() < session_.times.end ? "interrupted" : "done", "the reader of the records has gone");
+    std::rethrow_exception(closed_pipe_);
   }
 
   /// Whoever reads our records gets the frames from before the interruption too.
@@ -110,10 +126,10 @@ class Run {
         output_.check();
         if (simulation().step_count() % steps_between_diagnostics == 0) note();
         tell(progress, first);
-        if (cli::interrupted() || checkpoint_is_due()) break;
+        if (told_to_stop() || checkpoint_is_due()) break;
       }
       if (simulation().time() >= next) put_out();
-      const bool stop = cli::interrupted() && simulation().time() < end;
+      const bool stop = told_to_stop() && simulation().time() < end;
       if (stop || checkpoint_is_due()) save();
       if (stop) return 130;
     }
@@ -121,6 +137,7 @@ class Run {
     return 0;
   }
 
+  bool told_to_stop() const { return cli::interrupted() || reader_gone_; }
   bool checkpoint_is_due() const { return wall_seconds() - saved_ >= session_.options.checkpoint_every; }
 
   /// All frames up to now are on disk before the checkpoint that follows them.
@@ -225,6 +242,8 @@ class Run {
 
   Session session_;
   bool terminal_;
+  std::atomic<bool> reader_gone_{false};
+  std::exception_ptr closed_pipe_;  // set before reader_gone_
   Clock::time_point begun_ = Clock::now();
   double earlier_seconds_ = 0.0, told_ = 0.0, saved_ = 0.0;  // s of wall time: before a resumption; last said, saved
   FrameOutput output_;

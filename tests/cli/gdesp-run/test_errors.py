@@ -3,7 +3,6 @@
 import json
 import os
 import resource
-import signal
 import subprocess
 
 import run_case
@@ -87,7 +86,6 @@ class Errors(run_case.RunCase):
 
     def test_full_disk(self):
         def little_space():
-            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
             resource.setrlimit(resource.RLIMIT_FSIZE, (30000, 30000))
         case = self.case(dp="0.005")
         code, out, err = self.run_tool(case, "-o", "d.run", preexec_fn=little_space)
@@ -97,13 +95,24 @@ class Errors(run_case.RunCase):
         self.assertEqual(self.frames("d.run"), [])
 
     def test_reader_that_leaves(self):
-        process = self.start(self.case(), "--set", "time.output_interval=0.001", "--t-end", "1")
+        process = self.start(self.case(), "--set", "time.output_interval=0.01", "--t-end", "3")
         self.assertIn("frame", process.stdout.readline())
         process.stdout.close()
         err = process.stderr.read()
         self.assertEqual(process.wait(timeout=60), 0)
         process.stderr.close()
         self.assertNotIn("error", err)
+        self.assertEqual(json.loads((self.folder / "c.run/run.json").read_text())["status"], "interrupted")
+        records, _ = self.run_well("-o", "c.run", "--resume", "-q")
+        self.run_well("c.case", "-o", "whole.run", "--set", "time.output_interval=0.01", "--t-end", "3", "-q")
+        self.assertEqual(records[-1]["t"], 3)
+        self.assert_same_run("whole.run", "c.run")
+
+    def test_device_that_is_not_there(self):
+        if "device cuda:" in self.run_tool("--version")[1]:
+            self.skipTest("there is one")
+        case = self.case()
+        self.refused(5, case, "--device", "cuda", says=["CUDA"], leaves=[case])
 
     def test_records_on_standard_input(self):
         case = self.case()

@@ -76,6 +76,14 @@ class Output(run_case.RunCase):
             self.assertIn(word, out)
         self.assertEqual(sorted(p.name for p in self.folder.iterdir()), [case])
 
+    def test_memory_is_estimated_before(self):
+        for kinds in (["3d"], ["3d", "grains"]):
+            self.run_well(self.case(*kinds, dp="0.005"), "-q", "--t-end", "0.002", "--force")
+            about = json.loads((self.folder / "c.run/run.json").read_text())
+            estimate, taken = about["scene"]["memory_estimate"] - 2e7, about["memory"]
+            self.assertGreater(estimate, taken)
+            self.assertLess(estimate, 2.5 * taken)
+
     def test_profile(self):
         _, err = self.run_well(self.case(), "--profile", "--t-end", "0.02")
         self.assertRegex(err, r"sph::momentum +\d")
