@@ -43,6 +43,7 @@ FillSpace fill_space(const Layout& layout, ColumnIntervals& walls) {
   walls = static_solid(layout.parts, space.columns.grid, &space.ground);
   space.solid = unite(walls, body_solid(layout.parts, layout.scene, space.columns.grid));
   space.domain = layout.domain;
+  space.offset = layout.offset;
   return space;
 }
 

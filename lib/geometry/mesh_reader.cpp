@@ -14,10 +14,12 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <unordered_map>
 
 #include "core/error.hpp"
 #include "geometry/gdal_support.hpp"
+#include "io/isolated.hpp"
 
 namespace gdesp::geometry {
 namespace {
@@ -71,6 +73,7 @@ class Unzipped {
 };
 
 bool read_soup(const std::string& path, const std::string& format, Points& points, Polygons& polygons) {
+  std::cerr.rdbuf(nullptr);   // CGAL tells of broken lines there; this is the child process
   std::ifstream in(path, std::ios::binary);
   if (format == "off") return CGAL::IO::read_OFF(in, points, polygons);
   if (format == "obj") return CGAL::IO::read_OBJ(in, points, polygons);
@@ -150,25 +153,31 @@ TriangleMesh from_soup(const Points& points, const Polygons& polygons, const std
   return mesh;
 }
 
-TriangleMesh read_mesh_cgal(const std::string& path, const std::string& format) {
-  const Unzipped file(path);
+/// In a child process: CGAL's readers trust the counts and types that a file states.
+void read_surface(const std::string& path, const std::string& format, MemoryPoints& out) {
   Points points;
   Polygons polygons;
+  if (!read_soup(path, format, points, polygons)) refuse(path, "is damaged, cut short, or no " + format + " file");
+  TriangleMesh mesh = from_soup(points, polygons, path);
+  if (format == "stl") join_equal_vertices(mesh);
+  out.position = std::move(mesh.vertex);
+  out.surface.triangle = std::move(mesh.triangle);
+  out.surface.body.assign(out.surface.triangle.size(), 0);
+}
+
+TriangleMesh read_mesh_cgal(const std::string& path, const std::string& format) {
+  const Unzipped file(path);
   if (format == "stl") {
     check_stl_length(file.path(), path);
     check_ascii_stl(file.path(), path);
   }
-  bool good = false;
-  std::string why;
   try {
-    good = read_soup(file.path(), format, points, polygons);
-  } catch (const std::exception& e) {
-    why = std::string(" (") + e.what() + ")";
+    const auto points = read_isolated(file.path(), "CGAL", [&](const std::string& p, MemoryPoints& out) { read_surface(p, format, out); });
+    return {std::move(points->position), std::move(points->surface.triangle)};
+  } catch (const Error& e) {
+    if (file.path() == path) throw;
+    throw Error(e.kind(), path + " (unpacked): " + e.what());
   }
-  if (!good) refuse(path, "is damaged, cut short, or no " + format + " file" + why);
-  TriangleMesh mesh = from_soup(points, polygons, path);
-  if (format == "stl") join_equal_vertices(mesh);
-  return mesh;
 }
 
 }  // namespace

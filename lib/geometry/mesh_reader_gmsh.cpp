@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // gmsh sets OpenMP's thread count to 1, throws std::string, does not complain about garbage, and lets OpenCASCADE
-// write to stdout: all of that is kept inside GmshSession.
+// write to stdout: it runs in a child process.
 #include <fcntl.h>
 #include <gmsh.h>
-#include <omp.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,44 +13,24 @@
 
 #include "core/error.hpp"
 #include "geometry/mesh_reader.hpp"
+#include "io/isolated.hpp"
 
 namespace gdesp::geometry {
 namespace {
 
-class GmshSession {
- public:
-  GmshSession() : threads_(omp_get_max_threads()) {
-    std::fflush(stdout);
-    stdout_ = ::dup(1);
-    const int nowhere = ::open("/dev/null", O_WRONLY);
-    if (nowhere >= 0) {
-      ::dup2(nowhere, 1);
-      ::close(nowhere);
-    }
-    gmsh::initialize(0, nullptr, false);
-    gmsh::option::setNumber("General.Terminal", 0);
-    gmsh::option::setNumber("General.AbortOnError", 2);
-    gmsh::option::setString("Geometry.OCCTargetUnit", "M");
-    gmsh::logger::start();
-  }
-  ~GmshSession() {
-    try {
-      gmsh::finalize();
-    } catch (...) {
-    }
-    std::fflush(stdout);
-    if (stdout_ >= 0) {
-      ::dup2(stdout_, 1);
-      ::close(stdout_);
-    }
-    omp_set_num_threads(threads_);
-  }
-  GmshSession(const GmshSession&) = delete;
-  GmshSession& operator=(const GmshSession&) = delete;
+void silence_stdout() {
+  const int nowhere = ::open("/dev/null", O_WRONLY);
+  if (nowhere >= 0) ::dup2(nowhere, 1);
+}
 
- private:
-  int threads_, stdout_;
-};
+void start_gmsh() {
+  silence_stdout();
+  gmsh::initialize(0, nullptr, false);
+  gmsh::option::setNumber("General.Terminal", 0);
+  gmsh::option::setNumber("General.AbortOnError", 2);
+  gmsh::option::setString("Geometry.OCCTargetUnit", "M");
+  gmsh::logger::start();
+}
 
 /// First "Error:" line of gmsh's log, or "".
 std::string first_error() {
@@ -145,10 +124,8 @@ bool has_elements() {
   return !types.empty() || !solid.empty();
 }
 
-}  // namespace
-
-TriangleMesh read_mesh_gmsh(const std::string& path, double mesh_size) {
-  const GmshSession session;
+TriangleMesh read_surface(const std::string& path, double mesh_size) {
+  start_gmsh();
   try {
     gmsh::open(path);
     const std::string error = first_error();
@@ -172,6 +149,18 @@ TriangleMesh read_mesh_gmsh(const std::string& path, double mesh_size) {
   } catch (const std::exception& e) {
     throw Error(ErrorKind::input, path + ": gmsh says: " + e.what());
   }
+}
+
+}  // namespace
+
+TriangleMesh read_mesh_gmsh(const std::string& path, double mesh_size) {
+  const auto points = read_isolated(path, "gmsh", [mesh_size](const std::string& file, MemoryPoints& out) {
+    TriangleMesh mesh = read_surface(file, mesh_size);
+    out.position = std::move(mesh.vertex);
+    out.surface.triangle = std::move(mesh.triangle);
+    out.surface.body.assign(out.surface.triangle.size(), 0);
+  });
+  return {std::move(points->position), std::move(points->surface.triangle)};
 }
 
 }  // namespace gdesp::geometry

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <vtkCellArray.h>
-#include <vtkDataObject.h>
 #include <vtkDataSet.h>
 #include <vtkErrorCode.h>
-#include <vtkGeometryFilter.h>
 #include <vtkGenericDataObjectReader.h>
+#include <vtkGeometryFilter.h>
 #include <vtkObject.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
@@ -14,6 +13,8 @@
 
 #include "core/error.hpp"
 #include "geometry/mesh_reader.hpp"
+#include "io/foreign_guard.hpp"
+#include "io/isolated.hpp"
 
 namespace gdesp::geometry {
 namespace {
@@ -36,9 +37,9 @@ vtkSmartPointer<vtkDataSet> read_data_set(const std::string& path) {
   return read_with<vtkGenericDataObjectReader>(path);
 }
 
-}  // namespace
-
-TriangleMesh read_mesh_vtk(const std::string& path) {
+/// In a child process: VTK follows whatever a damaged file says.
+void read_surface(const std::string& path, MemoryPoints& out) {
+  refuse_implausible_vtk(path);
   vtkObject::GlobalWarningDisplayOff();   // problems are told by the error below, not printed
   const auto data = read_data_set(path);
   if (!data || data->GetNumberOfPoints() == 0) refuse(path, "is damaged, cut short, or no VTK file with points");
@@ -50,13 +51,12 @@ TriangleMesh read_mesh_vtk(const std::string& path) {
   triangles->PassLinesOff();
   triangles->Update();
   vtkPolyData* poly = triangles->GetOutput();
-  TriangleMesh mesh;
   const vtkIdType n = poly->GetNumberOfPoints();
-  mesh.vertex.reserve(static_cast<std::size_t>(n));
+  out.position.reserve(static_cast<std::size_t>(n));
   for (vtkIdType i = 0; i < n; ++i) {
     double p[3];
     poly->GetPoint(i, p);
-    mesh.vertex.push_back({p[0], p[1], p[2]});
+    out.position.push_back({p[0], p[1], p[2]});
   }
   vtkCellArray* polys = poly->GetPolys();
   polys->InitTraversal();
@@ -67,10 +67,17 @@ TriangleMesh read_mesh_vtk(const std::string& path) {
     for (int c = 0; c < 3; ++c) {
       if (corner[c] < 0 || corner[c] >= n) refuse(path, "a cell names point " + std::to_string(corner[c]) + " of " + std::to_string(n));
     }
-    mesh.triangle.push_back({static_cast<std::int32_t>(corner[0]), static_cast<std::int32_t>(corner[1]),
-                             static_cast<std::int32_t>(corner[2])});
+    out.surface.triangle.push_back({static_cast<std::int32_t>(corner[0]), static_cast<std::int32_t>(corner[1]),
+                                    static_cast<std::int32_t>(corner[2])});
   }
-  return mesh;
+  out.surface.body.assign(out.surface.triangle.size(), 0);
+}
+
+}  // namespace
+
+TriangleMesh read_mesh_vtk(const std::string& path) {
+  const auto points = read_isolated(path, "VTK", read_surface);
+  return {std::move(points->position), std::move(points->surface.triangle)};
 }
 
 }  // namespace gdesp::geometry

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double tolerance = 1e-4;        // of the diameter: overlaps below this count as none
 constexpr double inflation = 1.003;       // grains are moved apart as if they were this much larger
-constexpr double step = 0.09;             // share of the summed overlap added to the displacement in one iteration
-constexpr double memory = 0.85;           // of the last displacement
+constexpr double step = 0.25;             // share of the summed overlap added to the displacement in one iteration
+constexpr double memory = 0.96;           // of the last displacement
 constexpr double wall_weight = 1.5;
 constexpr double longest_step = 0.1;      // of the diameter, in one iteration
 constexpr int most_iterations = 6000;

@@ -20,7 +20,11 @@ std::string metres(double v) {
   return text;
 }
 
-std::string place(double x, double y) { return "x = " + metres(x) + ", y = " + metres(y); }
+std::string metres_at(double v) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.10g m", v);
+  return text;
+}
 
 /// Whether flat walls and box-shaped bodies leave room for a particle here.
 bool is_clear(const Vec3d& p, const SceneParts& parts, const Lattice& lattice) {
@@ -106,23 +110,28 @@ class Basin {
     return fill_.polygon.empty() || inside_polygon(fill_.polygon, s_.columns.grid.x(i), s_.columns.grid.y(j));
   }
 
+  // Numbers for people are in the scene's own coordinates.
+  std::string easting(double x) const { return metres_at(x + s_.offset.x); }
+  std::string northing(double y) const { return metres_at(y + s_.offset.y); }
+  std::string elevation(double z) const { return metres(z + s_.offset.z); }
+
   std::size_t start() const { return fill_.seed ? at_seed() : deepest(); }
 
   std::size_t at_seed() const {
     const ColumnGrid& grid = s_.columns.grid;
     const double fi = std::round((fill_.seed->x - grid.x0) / grid.spacing);
     const double fj = s_.lattice.dimensions == 2 ? 0.0 : std::round((fill_.seed->y - grid.y0) / grid.spacing);
-    const std::string where = name_ + ".seed (" + place(fill_.seed->x, fill_.seed->y) + ")";
+    const std::string where = name_ + ".seed (x = " + easting(fill_.seed->x) + ", y = " + northing(fill_.seed->y) + ")";
     if (fi < 0 || fj < 0 || fi >= grid.nx || fj >= grid.ny) {
-      throw Error(ErrorKind::input, where + " lies outside the domain and the terrain, x " + metres(grid.x(0)) + " to " +
-                                        metres(grid.x(grid.nx - 1)) + ", y " + metres(grid.y(0)) + " to " + metres(grid.y(grid.ny - 1)));
+      throw Error(ErrorKind::input, where + " lies outside the domain and the terrain, x " + easting(grid.x(0)) + " to " +
+                                        easting(grid.x(grid.nx - 1)) + ", y " + northing(grid.y(0)) + " to " + northing(grid.y(grid.ny - 1)));
     }
     const std::size_t c = grid.index(static_cast<int>(fi), static_cast<int>(fj));
     if (!wanted(static_cast<int>(fi), static_cast<int>(fj))) throw Error(ErrorKind::input, where + " lies outside " + name_ + ".polygon");
     if (open_.first[c] == open_.first[c + 1]) {
       const double ground = s_.ground[c];
-      throw Error(ErrorKind::input, where + (std::isfinite(ground) ? " stands on ground at " + metres(ground) + ", not below the level of " +
-                                                                         metres(fill_.level) + "; move it into the basin or raise the level"
+      throw Error(ErrorKind::input, where + (std::isfinite(ground) ? " stands on ground at " + elevation(ground) + ", not below the level of " +
+                                                                         elevation(fill_.level) + "; move it into the basin or raise the level"
                                                                    : " lies in a wall or where there is no terrain; move it into the basin"));
     }
     return open_.first[c + 1] - 1;
@@ -135,7 +144,7 @@ class Basin {
       if (open_.interval[k].lower < lowest - 1e-9) lowest = open_.interval[k].lower, best = k;
     }
     if (best == open_.interval.size()) {
-      throw Error(ErrorKind::input, name_ + ".level = " + metres(fill_.level) + " is below the bed; " + lowest_ground_text());
+      throw Error(ErrorKind::input, name_ + ".level = " + elevation(fill_.level) + " is below the bed; " + lowest_ground_text());
     }
     return best;
   }
@@ -150,7 +159,7 @@ class Basin {
       }
     }
     if (lowest == infinity) return "there is no terrain inside its polygon and the domain";
-    return "the lowest ground " + std::string(fill_.polygon.empty() ? "" : "inside its polygon ") + "lies at " + metres(lowest);
+    return "the lowest ground " + std::string(fill_.polygon.empty() ? "" : "inside its polygon ") + "lies at " + elevation(lowest);
   }
 
   void visit_neighbours(std::size_t k, std::size_t column, std::vector<std::size_t>& stack, FillReport& report) {

@@ -42,6 +42,7 @@ struct FillSpace {
   ColumnIntervals solid;            ///< walls and bodies together
   std::vector<double> ground;       ///< m, per column; NaN: none
   Box domain;                       ///< m
+  Vec3d offset;                     ///< m, added to coordinates in messages
 };
 
 /// Positions (m) of one fill. Levels and meshes use the common lattice; a box has its own, fitted to its faces (spacing

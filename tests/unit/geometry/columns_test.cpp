@@ -85,8 +85,8 @@ TEST(Columns, SheetHeightsMissWhereThereIsNoSheet) {
   std::size_t folded = 9;
   const auto h = sheet_heights(sheet, grid, 1e-9, &folded);
   EXPECT_TRUE(std::isnan(h[0]));
-  EXPECT_EQ(h[1], 7.0);
-  EXPECT_EQ(h[2], 7.0);
+  EXPECT_NEAR(h[1], 7.0, 1e-12);
+  EXPECT_NEAR(h[2], 7.0, 1e-12);
   EXPECT_TRUE(std::isnan(h[4]));
   EXPECT_EQ(folded, 0u);
 }

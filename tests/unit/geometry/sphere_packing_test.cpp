@@ -51,7 +51,7 @@ double most_outside(const Packing& p, const Box& b) {
 }
 
 TEST(SpherePacking, PorosityIsMetWithoutOverlapAndWithinTheWalls) {
-  const Box box{{0, 0, 0}, {1.0, 1.2, 0.9}};
+  const Box box{{0, 0, 0}, {0.8, 1.0, 0.7}};
   for (const double porosity : {0.45, 0.42}) {
     const Packing p = pack_spheres(box_request(box, 0.06, porosity));
     EXPECT_NEAR(p.porosity, porosity, 0.005);
@@ -79,24 +79,25 @@ TEST(SpherePacking, SameOnAnyNumberOfThreadsAnotherForAnotherSeed) {
 TEST(SpherePacking, SieveSharesAreByMass) {
   const Box box{{0, 0, 0}, {1, 1, 1}};
   PackingRequest r = box_request(box, 0.0, 0.42);
-  r.sieve = {{0.06, 0.5}, {0.12, 0.5}};
+  r.porosity = 0.45;
+  r.sieve = {{0.08, 0.5}, {0.16, 0.5}};
   const Packing p = pack_spheres(r);
   double small = 0.0, large = 0.0;
-  for (const float d : p.diameter) (d < 0.09f ? small : large) += static_cast<double>(d) * d * d;
+  for (const float d : p.diameter) (d < 0.12f ? small : large) += static_cast<double>(d) * d * d;
   EXPECT_NEAR(small / (small + large), 0.5, 0.02);
   EXPECT_LT(worst_overlap(p), 1.1e-4);
 }
 
 TEST(SpherePacking, NormalDiametersHaveTheirSpread) {
   const Box box{{0, 0, 0}, {1, 1, 1}};
-  PackingRequest r = box_request(box, 0.07, 0.44);
-  r.deviation = 0.007;
+  PackingRequest r = box_request(box, 0.08, 0.45);
+  r.deviation = 0.008;
   const Packing p = pack_spheres(r);
   double mean = 0.0, square = 0.0;
   for (const float d : p.diameter) mean += d, square += static_cast<double>(d) * d;
   mean /= static_cast<double>(p.diameter.size());
-  EXPECT_NEAR(mean, 0.07, 0.001);
-  EXPECT_NEAR(std::sqrt(square / static_cast<double>(p.diameter.size()) - mean * mean), 0.007, 0.001);
+  EXPECT_NEAR(mean, 0.08, 0.001);
+  EXPECT_NEAR(std::sqrt(square / static_cast<double>(p.diameter.size()) - mean * mean), 0.008, 0.001);
 }
 
 TEST(SpherePacking, DiscsInThePlane) {
