@@ -105,6 +105,7 @@ void CoupledSimulation<Exec>::fluid_split_step(float dt) {
     fluid_.evolve_dynamic_walls(dt);
   }
   fluid_.momentum_pass();
+  fluid_.find_walls();
   couple_grains(static_cast<double>(dt));
   fluid_.kick_drift(dt, 0.5f * dt);
   place_bodies(time_ + static_cast<double>(dt));

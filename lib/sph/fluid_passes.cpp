@@ -4,6 +4,7 @@
 #include "sph/pressure_and_viscosity.hpp"
 #include "sph/tait.hpp"
 #include "sph/wall_extrapolation.hpp"
+#include "sph/wall_guard.hpp"
 
 namespace gdesp::sph {
 namespace {
@@ -110,6 +111,40 @@ struct FinishWalls {
   }
 };
 
+// Where the wall's surface is, for water near it.
+struct FindWalls {
+  float inverse_reach;
+  ClusterListView list;
+  const float* fluid;
+  const float* walls;
+  const float* surface;  // nx ny nz depth, 4 each, per cluster
+  float* near_wall;      // six rows of 4 per cluster
+
+  template <class Lanes>
+  GDESP_HD void operator()(Index c, const Lanes& lanes) const {
+    using Real = typename Lanes::Real;
+    const float* ri = fluid + record_offset(c);
+    const Real x = lanes.load_i(ri + row_x), y = lanes.load_i(ri + row_y), z = lanes.load_i(ri + row_z);
+    WallGuardSums<Real> sums;
+    for_each_cluster(list, c, [&](Index j, const Vec3f& shift) {
+      const float* rj = walls + record_offset(j);
+      const float* sj = surface + 16 * static_cast<std::int64_t>(j);
+      const Real r[3] = {x + Real(shift.x) - lanes.load_j(rj + row_x), y + Real(shift.y) - lanes.load_j(rj + row_y),
+                         z + Real(shift.z) - lanes.load_j(rj + row_z)};
+      const Real n[3] = {lanes.load_j(sj), lanes.load_j(sj + 4), lanes.load_j(sj + 8)};
+      const Real v[3] = {lanes.load_j(rj + row_vx), lanes.load_j(rj + row_vy), lanes.load_j(rj + row_vz)};
+      add_wall_guard(inverse_reach, r, n, lanes.load_j(sj + 12), v, sums);
+    });
+    float* out = near_wall + 24 * static_cast<std::int64_t>(c);
+    lanes.store_sum_i(out, sums.weight);
+    lanes.store_sum_i(out + 4, sums.distance);
+    lanes.store_sum_i(out + 8, sums.nx);
+    lanes.store_sum_i(out + 12, sums.ny);
+    lanes.store_sum_i(out + 16, sums.nz);
+    lanes.store_sum_i(out + 20, sums.wall_speed);
+  }
+};
+
 // `dynamic` walls: continuity of wall particles against the fluid.
 struct WallContinuity {
   FluidPairLaw law;
@@ -194,6 +229,14 @@ void FluidSystem<Exec>::extrapolate_walls() {
 }
 
 template <class Exec>
+void FluidSystem<Exec>::find_walls() {
+  if (!guarded_) return;
+  exec::pair_pass(exec_, "sph::wall_guard", set_.clusters(),
+                  FindWalls{static_cast<float>(0.5 / parameters_.dp), fluid_wall_.view(), record_.data(),
+                            wall_record_.data(), wall_surface_.data(), near_wall_.data()});
+}
+
+template <class Exec>
 void FluidSystem<Exec>::wall_continuity_pass() {
   if (wall_set_.clusters() == 0 || parameters_.extrapolated_walls) return;
   exec::pair_pass(exec_, "sph::walls", wall_set_.clusters(),
@@ -207,6 +250,7 @@ template void FluidSystem<Backend>::momentum_pass();
 template void FluidSystem<Backend>::continuity_pass();
 template void FluidSystem<Backend>::combined_pass();
 template void FluidSystem<Backend>::extrapolate_walls();
+template void FluidSystem<Backend>::find_walls();
 template void FluidSystem<Backend>::wall_continuity_pass();
 
 }  // namespace gdesp::sph

@@ -50,6 +50,20 @@ struct Thin {
   }
 };
 
+// Surface rows of walls, four a cluster, from slots.
+struct SpreadSurface {
+  const Vec3f* normal;
+  const float* depth;
+  float* surface;
+  GDESP_HD void operator()(Index s) const {
+    float* r = surface + 16 * static_cast<std::int64_t>(s / exec::cluster_size) + s % exec::cluster_size;
+    r[0] = normal[s].x;
+    r[4] = normal[s].y;
+    r[8] = normal[s].z;
+    r[12] = depth[s];
+  }
+};
+
 struct SetOne {
   float* value;
   GDESP_HD void operator()(Index s) const { value[s] = 1.0f; }
@@ -97,7 +111,7 @@ FluidSystem<Exec>::FluidSystem(const Exec& exec, const Domain& domain, const Flu
       position_(exec), velocity_(exec), density_(exec), id_(exec), mass_share_(exec), porosity_(exec), external_(exec),
       record_(exec), rate_(exec), wall_position_(exec), wall_start_(exec), wall_velocity_(exec), wall_body_(exec),
       wall_density_(exec), wall_friction_(exec), wall_id_(exec), wall_record_(exec), wall_rate_(exec),
-      wall_bodies_(exec), scratch_position_(exec), scratch_vector_(exec), scratch_float_(exec), scratch_uint_(exec),
+      wall_normal_(exec), wall_depth_(exec), wall_surface_(exec), near_wall_(exec), wall_bodies_(exec), scratch_position_(exec), scratch_vector_(exec), scratch_float_(exec), scratch_uint_(exec),
       scratch_int_(exec) {
   start_fluid(fluid);
   start_walls(walls);
@@ -141,6 +155,11 @@ void FluidSystem<Exec>::start_walls(const BoundaryTable& walls) {
   wall_body_.assign(value_or(walls.body, n, 0));
   wall_friction_.assign(value_or(walls.friction, n, 0.0f));
   wall_density_.assign(std::vector<float>(n, 0.0f));
+  guarded_ = parameters_.extrapolated_walls && walls.normal.size() == n && walls.depth.size() == n && n > 0;
+  if (guarded_) {
+    wall_normal_.assign(walls.normal);
+    wall_depth_.assign(walls.depth);
+  }
   wall_id_.assign(numbered(n));
   walls_move_ = std::any_of(walls.body.begin(), walls.body.end(), [](std::int32_t b) { return b > 0; });
 }
@@ -167,6 +186,7 @@ void FluidSystem<Exec>::sort_fluid() {
   exec::parallel_for(exec_, "sort::gather", n, GatherRates{rate_.data(), source, scratch_float_.data()});
   rate_.swap(scratch_float_);
   record_.resize_discard(static_cast<std::size_t>(set_.clusters()) * record_size);
+  if (guarded_) near_wall_.resize_discard(6 * static_cast<std::size_t>(n));
 }
 
 template <class Exec>
@@ -182,6 +202,13 @@ void FluidSystem<Exec>::sort_walls() {
   exec::permute(exec_, wall_friction_, scratch_float_, source, n, 0.0f);
   exec::permute(exec_, wall_density_, scratch_float_, source, n, 0.0f);
   exec::permute(exec_, wall_id_, scratch_uint_, source, n, no_particle);
+  if (guarded_) {
+    exec::permute(exec_, wall_normal_, scratch_vector_, source, n, Vec3f{});
+    exec::permute(exec_, wall_depth_, scratch_float_, source, n, 0.0f);
+    wall_surface_.resize_discard(4 * static_cast<std::size_t>(n));
+    exec::parallel_for(exec_, "sort::gather", n,
+                       SpreadSurface{wall_normal_.data(), wall_depth_.data(), wall_surface_.data()});
+  }
   wall_record_.resize_discard(static_cast<std::size_t>(wall_set_.clusters()) * record_size);
   wall_rate_.resize_discard(static_cast<std::size_t>(n));
   wall_rate_.fill_bytes(0);

@@ -81,6 +81,7 @@ class FluidSystem {
   // Parts of a step (simulation/time_schemes).
   void half_drift(float dt_position, float dt_density);  ///< r += v dt_position, D += dD dt_density, pack
   void extrapolate_walls();
+  void find_walls();                                     ///< for the wall guard of kick_drift
   void momentum_pass();
   void continuity_pass();
   void combined_pass();
@@ -147,6 +148,11 @@ class FluidSystem {
   Array<float, Exec> wall_friction_;            ///< 1: no slip, 0: free slip
   Array<std::uint32_t, Exec> wall_id_;
   Array<float, Exec> wall_record_, wall_rate_;
+  Array<Vec3f, Exec> wall_normal_;              ///< into the water; 0: unknown
+  Array<float, Exec> wall_depth_;               ///< m below the surface
+  Array<float, Exec> wall_surface_;             ///< nx ny nz depth (m), 4 each, per cluster
+  Array<float, Exec> near_wall_;                ///< of the water: six rows of 4 per cluster (sph/wall_guard.hpp)
+  bool guarded_ = false;                        ///< some wall particle knows its normal
   Array<WallBodyState, Exec> wall_bodies_;
 
   // Scratch for permutations, one per element size.

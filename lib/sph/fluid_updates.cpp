@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sph/fluid_system.hpp"
+#include "sph/wall_guard.hpp"
 
 namespace gdesp::sph {
 namespace {
@@ -25,9 +26,16 @@ struct KickDrift {
   FluidStateView state;
   RecordPacker packer;
   float dt, dt_position;
+  const float* near_wall;  // null: no guard
+  float sound_speed;
+  GDESP_HD NearWall wall_at(Index s) const {
+    const float* w = near_wall + 24 * static_cast<std::int64_t>(s / exec::cluster_size) + s % exec::cluster_size;
+    return {w[0], w[4], w[8], w[12], w[16], w[20]};
+  }
   GDESP_HD void operator()(Index s) const {
     if (packer.id[s] != no_particle) {
-      const Vec3f v = state.velocity[s] + state.acceleration(s) * dt;
+      Vec3f v = state.velocity[s] + state.acceleration(s) * dt;
+      if (near_wall) v = guarded_velocity(v, wall_at(s), dt, sound_speed);
       state.velocity[s] = v;
       state.position[s] = packer.domain.moved(state.position[s], static_cast<Vec3d>(v * dt_position));
     }
@@ -224,7 +232,8 @@ void FluidSystem<Exec>::pack() {
 
 template <class Exec>
 void FluidSystem<Exec>::kick_drift(float dt, float dt_position) {
-  exec::parallel_for(exec_, "sph::kick_drift", slots(), KickDrift{state_view(), packer(), dt, dt_position});
+  exec::parallel_for(exec_, "sph::kick_drift", slots(), KickDrift{state_view(), packer(), dt, dt_position, guarded_ ? near_wall_.data() : nullptr,
+                               static_cast<float>(parameters_.sound_speed)});
 }
 
 template <class Exec>
