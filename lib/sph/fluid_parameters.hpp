@@ -19,6 +19,7 @@ struct FluidParameters {
   double density_diffusion = 0.1;
   bool extrapolated_walls = true;    ///< else dynamic boundary particles
   bool paper_form = false;           ///< eqs 3 and 5 as the paper has them
+  bool cavitates = true;             ///< no tension in water (sph.cavitation)
   int dimensions = 3;
   double skin = 0.0;                 ///< m, added to the support of the lists; 0: chosen from the motion
   double level = 0.0;                ///< m, still-water level for the hydrostatic start

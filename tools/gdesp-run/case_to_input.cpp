@@ -88,6 +88,7 @@ sph::FluidParameters fluid_parameters(const Case& c) {
   p.density_diffusion = n.density_diffusion;
   p.extrapolated_walls = n.walls == "extrapolated";
   p.paper_form = n.preset == "paper";
+  p.cavitates = !p.paper_form;
   p.dimensions = s.dimensions;
   p.skin = n.skin;
   p.level = c.still_water_level;

@@ -7,6 +7,8 @@
 // @eq sph.momentum
 // @eq sph.continuity
 // @eq sph.wall.extrapolation
+// @eq sph.wall.guard
+// @eq sph.cavitation
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,6 +17,8 @@
 #include "sph/pressure_and_viscosity.hpp"
 #include "sph/tait.hpp"
 #include "sph/wall_extrapolation.hpp"
+#include "sph/fluid_views.hpp"
+#include "sph/wall_guard.hpp"
 #include "sph/wendland_c2.hpp"
 
 namespace gdesp::sph {
@@ -140,6 +144,37 @@ TEST(WallPair, a_wall_under_still_water_gets_the_hydrostatic_pressure) {
       add_wall_pair(0.5f / h, -0.7f * static_cast<float>(x), 0.0f, -0.7f * static_cast<float>(z),
                     A0 + slope * 0.7f * static_cast<float>(z), sums);
   EXPECT_NEAR((sums.pressure + slope * sums.rz) / sums.weight, A0, 1e-6);
+}
+
+TEST(WallGuard, stops_half_way_to_the_wall_and_leaves_the_rest_alone) {
+  WallGuardSums<float> sums;
+  for (int k = -1; k <= 1; ++k) {
+    const float r[3] = {0.5f * static_cast<float>(k), 0.0f, 0.9f}, n[3] = {0.0f, 0.0f, 1.0f}, v[3] = {0, 0, 0};
+    add_wall_guard(0.5f, r, n, 0.5f, v, sums);  // the surface lies 0.5 above these: s = 0.4
+  }
+  const NearWall wall{sums.weight, sums.distance, sums.nx, sums.ny, sums.nz, sums.wall_speed};
+  const Vec3f fast = guarded_velocity({3.0f, 0.0f, -10.0f}, wall, 0.1f, 100.0f);
+  EXPECT_NEAR(fast.z, -0.5f * 0.4f / 0.1f, 1e-5f);
+  EXPECT_EQ(fast.x, 3.0f);
+  const Vec3f slow = guarded_velocity({3.0f, 0.0f, -1.9f}, wall, 0.1f, 100.0f);
+  EXPECT_EQ(slow.z, -1.9f);
+  EXPECT_EQ(guarded_velocity({0, 0, -9.0f}, {}, 0.1f, 100.0f).z, -9.0f);
+}
+
+TEST(RecordPacker, water_in_tension_has_no_pressure_where_it_cavitates) {
+  Domain domain{};
+  domain.tile_size = {1, 1, 1};
+  const Vec3<std::int32_t> tile{};
+  const std::uint32_t id[4] = {0, 1, 2, 3};
+  float record[32] = {};
+  RecordPacker packer{domain, false, &tile, id, nullptr, nullptr, 0.0f, record};
+  packer(0, FixedPosition{}, Vec3f{}, -0.01f);
+  packer(1, FixedPosition{}, Vec3f{}, 0.01f);
+  EXPECT_EQ(record[28], 0.0f);
+  EXPECT_GT(record[29], 0.0f);
+  packer.least_pressure = -1.0e30f;
+  packer(0, FixedPosition{}, Vec3f{}, -0.01f);
+  EXPECT_LT(record[28], 0.0f);
 }
 
 }  // namespace
