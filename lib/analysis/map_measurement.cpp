@@ -56,8 +56,8 @@ void MapMeasurement::add(FrameView& view, const RowSink&) {
   for (std::size_t k = 0; k < now.value.size(); ++k) {
     const float z = now.value[k], bed = ground_.value[k];
     const float depth = std::isfinite(bed) ? z - bed : none;
-    if (!any_) first_.value[k] = z;
     if (!std::isfinite(z) || (std::isfinite(bed) && depth < threshold_)) continue;
+    if (!any_) first_.value[k] = z;
     if (!(level_.value[k] >= z)) level_.value[k] = z;
     if (std::isfinite(depth) && !(depth_.value[k] >= depth)) depth_.value[k] = depth;
     if (!any_ || std::isfinite(arrival_.value[k])) continue;

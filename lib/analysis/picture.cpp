@@ -45,14 +45,6 @@ namespace {
 constexpr int supersampling = 2;             // drawn larger, then averaged: smooth edges on every driver
 constexpr std::size_t most_balls = 80000;    // above it grains are drawn as points
 
-struct Bounds {
-  Vec3d lower{1e300, 1e300, 1e300}, upper{-1e300, -1e300, -1e300};
-  void add(const Vec3d& p) {
-    for (int a = 0; a < 3; ++a) lower[a] = std::min(lower[a], p[a]), upper[a] = std::max(upper[a], p[a]);
-  }
-  bool any() const { return lower.x <= upper.x; }
-};
-
 vtkNew<vtkPolyData> triangles_to_vtk(const std::vector<Vec3d>& vertex, const std::vector<Vec3<std::int32_t>>& triangle) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToFloat();
@@ -117,12 +109,34 @@ class Painter {
   }
 
  private:
+  bool has_terrain() const { return !info_.scene.terrain.files.empty(); }
+
+  // What must be in the picture: some hundred particles of the water (of a lake its surface), the slide and where it
+  // came from; in a tank the tank.
   void find_focus() {
-    for (const Vec3d& p : {info_.fluid_lower, info_.fluid_upper}) focus_.add(p);
-    for (const Vec3d& p : frame_.grains.position) focus_.add(p);
-    for (const Vec3d& p : frame_.bodies.vertex) focus_.add(p);
-    if (info_.slide_centre) focus_.add(*info_.slide_centre);
-    if (!focus_.any()) focus_.add({0, 0, 0});
+    const auto take = [&](const std::vector<Vec3d>& points, double floor) {
+      const std::size_t step = points.size() / 1000 + 1;
+      for (std::size_t k = 0; k < points.size(); k += step) focus_.push_back({points[k].x, points[k].y, std::max(points[k].z, floor)});
+    };
+    const double floor = has_terrain() && info_.still_water_level ? *info_.still_water_level : -1e300;
+    take(frame_.fluid.position, floor);
+    take(frame_.grains.position, -1e300);
+    take(frame_.bodies.vertex, -1e300);
+    if (!has_terrain()) take(info_.walls.vertex, -1e300);
+    if (info_.slide_centre) focus_.push_back(*info_.slide_centre);
+    if (focus_.empty()) focus_.push_back({0, 0, 0});
+    for (Vec3d& p : focus_) p.z *= options_.vertical_exaggeration;
+  }
+
+  double focus_height() const {
+    const auto [low, high] = std::minmax_element(focus_.begin(), focus_.end(), [](const Vec3d& a, const Vec3d& b) { return a.z < b.z; });
+    return high->z - low->z;
+  }
+
+  Vec3d focus_middle() const {
+    Vec3d sum;
+    for (const Vec3d& p : focus_) sum += p;
+    return sum * (1.0 / static_cast<double>(focus_.size()));
   }
 
   vtkNew<vtkActor> actor_for(vtkPolyDataMapper* mapper) {
@@ -148,16 +162,18 @@ class Painter {
     normals->SetFeatureAngle(50.0);
     normals->ConsistencyOff();
     vtkNew<vtkLookupTable> tint;  // muted, so that the water and the slide carry the colours
-    fill_table(tint, {{0.50, 0.47, 0.42}, {0.62, 0.62, 0.52}, {0.74, 0.74, 0.66}, {0.88, 0.87, 0.84}, {0.97, 0.97, 0.97}});
+    fill_table(tint, {{0.47, 0.45, 0.38}, {0.55, 0.57, 0.45}, {0.66, 0.66, 0.55}, {0.78, 0.76, 0.69}, {0.92, 0.91, 0.89}});
     vtkNew<vtkPolyDataMapper> mapper;
     mapper->SetInputConnection(normals->GetOutputPort());
     mapper->SetLookupTable(tint);
     mapper->SetScalarRange(range);
+    mapper->SetScalarVisibility(has_terrain());
     auto actor = actor_for(mapper);
-    actor->GetProperty()->SetAmbient(0.28);
-    actor->GetProperty()->SetDiffuse(0.80);
+    actor->GetProperty()->SetColor(0.80, 0.80, 0.78);
+    actor->GetProperty()->SetAmbient(0.22);
+    actor->GetProperty()->SetDiffuse(0.85);
     actor->GetProperty()->BackfaceCullingOn();  // a tank is seen from inside
-    if (range[1] - range[0] > 0.0) add_contours(data, range);
+    if (has_terrain() && range[1] - range[0] > 0.0) add_contours(data, range);
   }
 
   void add_contours(vtkPolyData* terrain, const double* range) {
@@ -196,7 +212,7 @@ class Painter {
     if (speed.empty()) return 1.0;
     const auto at = speed.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(speed.size() - 1));
     std::nth_element(speed.begin(), at, speed.end());
-    const double slowest = 0.02 * std::sqrt(info_.gravity() * (focus_.upper.z - focus_.lower.z));  // all but at rest
+    const double slowest = 0.02 * std::sqrt(info_.gravity() * std::max(focus_height(), info_.dp));  // all but at rest
     const double raw = std::max({static_cast<double>(*at), slowest, 1e-3});
     const double unit = std::pow(10.0, std::floor(std::log10(raw)));
     return std::ceil(raw / unit * 2.0) / 2.0 * unit;
@@ -325,8 +341,8 @@ class Painter {
   }
 
   void paint_slide(vtkActor* actor) {
-    actor->GetProperty()->SetColor(0.84, 0.37, 0.0);  // vermillion of Okabe & Ito
-    actor->GetProperty()->SetAmbient(0.30);
+    actor->GetProperty()->SetColor(0.90, 0.42, 0.05);  // near the vermillion of Okabe & Ito
+    actor->GetProperty()->SetAmbient(0.45);
     actor->GetProperty()->SetDiffuse(0.75);
     renderer_->AddActor(actor);
   }
@@ -348,7 +364,7 @@ class Painter {
     add(time, 0.02, 0.905, 22);
     std::string small = "dp " + format_number(info_.dp) + " m";
     if (!frame_.grains.position.empty() || !frame_.bodies.triangle.empty()) small += "   orange: slide";
-    if (info_.still_water_level && info_.dimensions == 3) small += "   blue line: still-water shore";
+    if (info_.still_water_level && has_terrain()) small += "   blue line: still-water shore";
     if (options_.vertical_exaggeration != 1.0) small += "   heights x " + format_number(options_.vertical_exaggeration);
     add(small, 0.02, 0.022, 16);
   }
@@ -357,36 +373,60 @@ class Painter {
   double chosen_azimuth() const {
     if (options_.azimuth) return *options_.azimuth;
     if (info_.dimensions == 2) return 180.0;
-    const Vec3d middle = (focus_.lower + focus_.upper) * 0.5;
+    const Vec3d middle = focus_middle();
     const Vec3d slide = info_.slide_centre ? *info_.slide_centre : middle + Vec3d{0, 1, 0};
     const Vec3d lake{info_.lake.centre.x, info_.lake.centre.y, 0.0};
     const double to_slide = std::atan2(slide.x - lake.x, slide.y - lake.y) * 180.0 / std::numbers::pi;
-    return to_slide + 180.0 + 40.0;
+    return to_slide + 180.0 + (info_.slide_centre ? 40.0 : 20.0);
   }
 
   void place_camera() {
-    const double up = options_.vertical_exaggeration;
-    Vec3d middle = (focus_.lower + focus_.upper) * 0.5;
-    middle.z *= up;
-    const Vec3d size = focus_.upper - focus_.lower;
-    const double radius = 0.5 * std::sqrt(size.x * size.x + size.y * size.y + up * up * size.z * size.z) + info_.dp;
     const double azimuth = chosen_azimuth() * std::numbers::pi / 180.0;
     const double elevation = (info_.dimensions == 2 ? 0.0 : options_.elevation) * std::numbers::pi / 180.0;
-    const double view = 26.0;
-    const double distance = radius * 0.9 / std::sin(0.5 * view * std::numbers::pi / 180.0) / options_.zoom;
+    const Vec3d towards{std::cos(elevation) * std::sin(azimuth), std::cos(elevation) * std::cos(azimuth), std::sin(elevation)};
+    const double half_view = 13.0 * std::numbers::pi / 180.0;
+    Vec3d middle = focus_middle();
+    double distance = 0.0;
+    for (int k = 0; k < 3; ++k) distance = fit(towards, half_view, middle);  // the fit moves the middle, too
+    distance /= options_.zoom;
     vtkCamera* camera = renderer_->GetActiveCamera();
     camera->SetFocalPoint(middle.x, middle.y, middle.z);
-    camera->SetPosition(middle.x + distance * std::cos(elevation) * std::sin(azimuth),
-                        middle.y + distance * std::cos(elevation) * std::cos(azimuth), middle.z + distance * std::sin(elevation));
+    camera->SetPosition(middle.x + distance * towards.x, middle.y + distance * towards.y, middle.z + distance * towards.z);
     camera->SetViewUp(0.0, 0.0, 1.0);
-    camera->SetViewAngle(view);
+    camera->SetViewAngle(2.0 * half_view * 180.0 / std::numbers::pi);
     renderer_->ResetCameraClippingRange();
+    add_lights();
+  }
+
+  // The smallest distance from which every point of the focus fills no more than the middle of the picture (left of
+  // the colour bar, below the title); moves `middle` to the middle of what is seen.
+  double fit(const Vec3d& towards, double half_view, Vec3d& middle) const {
+    const Vec3d side = cross(Vec3d{0, 0, 1}, towards) * (1.0 / std::max(1e-9, norm(cross(Vec3d{0, 0, 1}, towards))));
+    const Vec3d up = cross(towards, side);
+    const double tangent = std::tan(half_view), wide = tangent * options_.width / options_.height;
+    std::vector<Vec3d> corner;
+    for (const Vec3d& p : focus_) corner.push_back(p - middle);
+    double distance = info_.dp;
+    for (const Vec3d& c : corner) {
+      const double toward_camera = dot(c, towards);
+      distance = std::max({distance, toward_camera + std::abs(dot(c, side)) / (0.80 * wide), toward_camera + std::abs(dot(c, up)) / (0.80 * tangent)});
+    }
+    double left = 1e300, right = -1e300, low = 1e300, high = -1e300;
+    for (const Vec3d& c : corner) {
+      const double depth = distance - dot(c, towards), x = dot(c, side) / depth, y = dot(c, up) / depth;
+      left = std::min(left, x), right = std::max(right, x), low = std::min(low, y), high = std::max(high, y);
+    }
+    middle = middle + side * (0.5 * (left + right) * distance) + up * (0.5 * (low + high) * distance);
+    return distance;
+  }
+
+  void add_lights() {
     vtkNew<vtkLight> sun, sky;  // the sun stands to the left behind the camera
     sun->SetLightTypeToCameraLight();
-    sun->SetPosition(-1.0, 1.3, 0.6);
-    sun->SetIntensity(0.95);
+    sun->SetPosition(-1.3, 1.2, 0.8);
+    sun->SetIntensity(has_terrain() ? 0.98 : 0.55);
     sky->SetLightTypeToHeadlight();
-    sky->SetIntensity(0.25);
+    sky->SetIntensity(has_terrain() ? 0.12 : 0.55);
     renderer_->AddLight(sun);
     renderer_->AddLight(sky);
   }
@@ -440,7 +480,7 @@ class Painter {
   const Frame& frame_;
   const RunInfo& info_;
   const PictureOptions& options_;
-  Bounds focus_;
+  std::vector<Vec3d> focus_;  // case coordinates, heights exaggerated
   vtkNew<vtkRenderer> renderer_;
   vtkNew<vtkLookupTable> water_colours_;
 };

@@ -13,7 +13,7 @@ namespace gdesp::analysis {
 struct PictureOptions {
   int width = 1600, height = 1000;        ///< pixels
   std::optional<double> azimuth;          ///< degrees clockwise from +y (north) to where the camera stands; default: chosen
-  double elevation = 38.0;                ///< degrees above the horizontal
+  double elevation = 44.0;                ///< degrees above the horizontal
   double zoom = 1.0;
   double speed_max = 0.0;                 ///< m/s, end of the colour scale; 0: 99th percentile of the water's speed
   double vertical_exaggeration = 1.0;

@@ -65,7 +65,7 @@ std::string terminal(const std::string& kind, double width_mm, double height_mm)
 void write_common(std::ostream& out) {
   out << "set encoding utf8\nset datafile missing 'nan'\n"
          "set border 3 lw 0.8 lc '#333333'\nset tics nomirror out scale 0.6 textcolor '#222222'\n"
-         "set grid lw 0.5 lc '#d0d0d0' dt 1\nset key opaque spacing 1.15 samplen 2.2 Left reverse\nset autoscale xfix\n"
+         "set grid lw 0.5 lc '#d0d0d0' dt 1\nset key spacing 1.15 samplen 2.2 Left reverse\nset autoscale xfix\n"
          "set style fill transparent solid 0.25 noborder\n"
          "set palette defined (0 '#440154', 0.25 '#3b528b', 0.5 '#21918c', 0.75 '#5ec962', 1 '#fde725')\n";
 }
@@ -150,9 +150,10 @@ void write_panel(std::ostream& out, const Panel& p, int index) {
   else write_range(out, "y", range_of(p, true), p.log_y, p.reverse_y);
   std::size_t named = 0;
   for (const Series& s : p.series) named += !s.label.empty();
-  if (named == 0) out << "unset key\n";
-  else if (named > 4) out << "set key outside right top\n";
-  else out << "set key inside top right\n";
+  // The legend below the axis; the margin makes room for its rows.
+  const std::size_t rows = (named + 3) / 4;
+  if (named == 0) out << "unset key\nunset bmargin\n";
+  else out << "set key bmargin center horizontal maxcols 4 maxrows " << rows << " noopaque\nset bmargin " << 4.2 + 1.25 * rows << "\n";
   std::string command;
   for (std::size_t k = 0; k < p.series.size(); ++k) {
     const std::string block = "p" + std::to_string(index) + "s" + std::to_string(k);
@@ -167,6 +168,15 @@ void write_panel(std::ostream& out, const Panel& p, int index) {
   out << (command.empty() ? "plot NaN notitle" : command) << "\n";
 }
 
+// A round step that makes about four ticks.
+double tick_step(double range) {
+  const double unit = std::pow(10.0, std::floor(std::log10(range / 4.0)));
+  for (const double m : {1.0, 2.0, 5.0}) {
+    if (m * unit >= range / 4.0) return m * unit;
+  }
+  return 10.0 * unit;
+}
+
 void write_map(std::ostream& out, const ColourMap& m, int index) {
   out << "$m" << index << " << EOD\n";
   for (int iy = 0; iy < m.ny; ++iy) {
@@ -178,7 +188,7 @@ void write_map(std::ostream& out, const ColourMap& m, int index) {
   }
   out << "EOD\nset title " << quoted(m.title) << "\nset xlabel " << quoted(m.x_label) << "\nset ylabel "
       << quoted(m.y_label) << "\nset cblabel " << quoted(m.value_label)
-      << "\nunset logscale\nset size ratio -1\nset format x '%.7g'\nset format y '%.7g'\nset xtics autofreq\nset xtics rotate by -30\n";
+      << "\nunset bmargin\nunset logscale\nset size ratio -1\nset format x '%.7g'\nset format y '%.7g'\nset style fill solid 1 noborder\nset xtics " << tick_step(m.nx * m.dx) << "\n";
   out << "set xrange [" << m.x0 - 0.5 * m.dx << ":" << m.x0 + (m.nx - 0.5) * m.dx << "]\nset yrange ["
       << m.y0 - 0.5 * m.dx << ":" << m.y0 + (m.ny - 0.5) * m.dx << "]\nunset key\n";
   for (std::size_t k = 0; k < m.overlay.size(); ++k) {

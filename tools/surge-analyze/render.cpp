@@ -64,7 +64,7 @@ int run_render(const std::vector<std::string>& arguments) {
   own.add_options()("time,t", po::value<double>()->value_name("S"), "the nearest frame (default: when the water has most kinetic energy)");
   own.add_options()("size", po::value<std::string>()->value_name("W,H")->default_value("1600,1000"), "pixels");
   own.add_options()("azimuth", po::value<double>()->value_name("DEG"), "where the camera stands, clockwise from +y (default: facing the slide)");
-  own.add_options()("elevation", po::value<double>()->value_name("DEG")->default_value(38.0, "38"), "of the camera above the horizontal");
+  own.add_options()("elevation", po::value<double>()->value_name("DEG")->default_value(44.0, "44"), "of the camera above the horizontal");
   own.add_options()("zoom", po::value<double>()->value_name("F")->default_value(1.0, "1"), "above 1: closer");
   own.add_options()("speed-max", po::value<double>()->value_name("M/S")->default_value(0.0, "chosen"), "end of the colour scale");
   own.add_options()("exaggeration", po::value<double>()->value_name("F")->default_value(1.0, "1"), "of heights");
