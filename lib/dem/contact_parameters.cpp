@@ -37,7 +37,7 @@ void check_contact_parameters(const ContactParameters& p) {
   require(p.friction >= 0.0, "friction", p.friction, "", "0 or more");
   require(p.rolling_friction >= 0.0, "rolling_friction", p.rolling_friction, "", "0 or more");
   require(p.cohesion >= 0.0, "cohesion", p.cohesion, "J/m2", "0 or more");
-  require(p.skin > 0.0 && p.skin <= 2.0, "skin", p.skin, "diameters", "above 0, to 2");
+  require(p.skin >= 0.0 && p.skin <= 1.0, "skin", p.skin, "diameters", "0 (as pays best) to 1");
 }
 
 ContactLawSet make_contact_laws(const ContactParameters& p, int dimensions) {

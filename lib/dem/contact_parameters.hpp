@@ -25,7 +25,7 @@ struct ContactParameters {
   double wall_friction = -1.0;          ///< < 0: as friction
   double rolling_friction = 0.0;        ///< 0: no rolling resistance
   double cohesion = 0.0;                ///< J/m2, work of adhesion
-  double skin = 0.1;                    ///< of the largest diameter: how far lists reach beyond contact
+  double skin = 0.0;                    ///< of the mean diameter: how far lists reach beyond contact; 0: as pays best
 };
 
 /// The laws of grain-grain and grain-wall contacts; only those of `kind` are set.

@@ -17,10 +17,10 @@ constexpr std::uint64_t checkpoint_mark = 0x31304d4544504447ull;  // "GDPDEM01"
 
 struct Header {
   std::uint64_t mark = checkpoint_mark;
-  double time = 0.0, half_before = 0.0, drift = 0.0, odometer = 0.0;
+  double time = 0.0, half_before = 0.0, drift = 0.0, odometer = 0.0, skin = 0.0;
   float moved2 = 0.0f, speed2 = 0.0f, overlap = 0.0f;
   std::int32_t must_rebuild = 0, rolling = 0, reserved = 0;
-  std::int64_t substeps = 0, rebuilds = 0;
+  std::int64_t substeps = 0, rebuilds = 0, listed_at = 0;
   Index slots = 0, lost = 0;
 };
 
@@ -158,6 +158,8 @@ std::vector<char> GrainSystem<Exec>::save() const {
   header.overlap = overlap_;
   header.drift = drift_;
   header.odometer = odometer_;
+  header.skin = skin_;
+  header.listed_at = listed_at_;
   header.must_rebuild = must_rebuild_ ? 1 : 0;
   header.rolling = contact_.rolling_friction > 0.0 ? 1 : 0;
   header.substeps = substeps_;
@@ -221,6 +223,8 @@ void GrainSystem<Exec>::load(const std::vector<char>& bytes) {
   half_before_ = header.half_before;
   drift_ = header.drift;
   odometer_ = header.odometer;
+  skin_ = header.skin;
+  listed_at_ = static_cast<long>(header.listed_at);
   moved2_ = header.moved2;
   speed2_ = header.speed2;
   overlap_ = header.overlap;

@@ -86,6 +86,7 @@ class GrainSystem {
   GrainSums sums();
   /// To the host, in the order of ids.
   GrainTable table() const;
+  double skin() const { return skin_; }                     ///< m, of the lists in use
   long rebuilds() const { return rebuilds_; }               ///< of the contact lists
   long substeps() const { return substeps_; }
   Index near_walls() const { return walls_.grains(); }
@@ -108,6 +109,7 @@ class GrainSystem {
   template <class T>
   void gather(Array<T, Exec>& values, Array<T, Exec>& scratch, const T& padding);
   // Bodies; number 0 are the walls at rest.
+  void choose_skin(double moved);
   double largest_body_move(const std::vector<BodyMoment>& moments) const;
   WallReach wall_reach();
   std::vector<BodyMoment> moments(double share, double duration) const;
@@ -127,13 +129,14 @@ class GrainSystem {
   ContactLawSet laws_;
   ContactParameters contact_;
   Vec3d gravity_;
-  double largest_radius_ = 0.0, smallest_radius_ = 0.0, critical_time_ = 0.0, skin_ = 0.0;
+  double largest_radius_ = 0.0, smallest_radius_ = 0.0, mean_diameter_ = 0.0;
+  double critical_time_ = 0.0, skin_ = 0.0;
   double time_ = 0.0, half_before_ = 0.0;
   float moved2_ = 0.0f, speed2_ = 0.0f, overlap_ = 0.0f;
   double drift_ = 0.0;                            // m: no grain moved farther since it was sorted
   double odometer_ = 0.0;                         // m: no grain and body together moved farther since the start
   bool listed_ = false, must_rebuild_ = true;
-  long rebuilds_ = 0, sorts_ = 0, substeps_ = 0;
+  long rebuilds_ = 0, sorts_ = 0, substeps_ = 0, listed_at_ = 0;
   Index lost_ = 0;
 
   ClusterSet<Exec> set_;
