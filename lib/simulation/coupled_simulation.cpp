@@ -11,8 +11,6 @@
 namespace gdesp {
 namespace {
 
-constexpr double split_cfl = 0.5, verlet_cfl = 0.2;
-
 Domain domain_of(const SimulationInput& input) {
   return make_domain(input.lower, input.upper, input.fluid_parameters.dp, input.periodic,
                      input.fluid_parameters.dimensions);
@@ -27,7 +25,7 @@ CoupledSimulation<Exec>::CoupledSimulation(const Exec& exec, const SimulationInp
   input_.fluid = {};
   input_.boundary = {};
   input_.grains = {};
-  if (input_.time.cfl <= 0.0) input_.time.cfl = input_.time.scheme == TimeScheme::split ? split_cfl : verlet_cfl;
+  if (input_.time.cfl <= 0.0) input_.time.cfl = input_.time.scheme == TimeScheme::split ? split_default_cfl : verlet_default_cfl;
   place_bodies(0.0);
   if (!input.grains.position.empty()) start_grains(input);
   fluid_.extrapolate_walls();

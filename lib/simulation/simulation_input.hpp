@@ -27,7 +27,7 @@ struct CouplingParameters {
 
 struct TimeParameters {
   TimeScheme scheme = TimeScheme::split;
-  double cfl = 0.0;                ///< 0: the scheme's own (split 0.5, verlet 0.25)
+  double cfl = 0.0;                ///< 0: the scheme's own (split 0.5, verlet 0.2)
   double fixed_step = 0.0;         ///< s; > 0: no adaption
   bool multirate = true;           ///< grains sub-step inside the fluid's step
   double grain_step_share = 0.2;   ///< of the Rayleigh or contact time

@@ -105,7 +105,7 @@ class FluidSystem {
     a(coupled_, moved_, skin_, lost_, walls_move_, set_, wall_set_, fluid_fluid_, fluid_wall_, wall_fluid_);
     a(position_, velocity_, density_, id_, mass_share_, porosity_, external_, record_, rate_);
     a(wall_position_, wall_start_, wall_velocity_, wall_body_, wall_density_, wall_friction_, wall_id_, wall_record_,
-      wall_rate_, wall_bodies_);
+      wall_rate_, wall_bodies_, guarded_, wall_normal_, wall_depth_, wall_surface_, near_wall_);
   }
 
  private:

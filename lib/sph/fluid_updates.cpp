@@ -218,7 +218,7 @@ template <class Exec>
 RecordPacker FluidSystem<Exec>::packer() {
   return {domain_, parameters_.paper_form, set_.view().cluster_tile, id_.data(),
           coupled_ ? porosity_.data() : nullptr, mass_share_.data(),
-          parameters_.cavitates ? 0.0f : -1.0e30f, record_.data()};
+          parameters_.cavitates, record_.data()};
 }
 
 template <class Exec>

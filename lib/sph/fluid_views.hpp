@@ -3,6 +3,7 @@
 #pragma once
 
 #include "neighbors/cluster_list.hpp"
+#include "sph/cavitation.hpp"
 #include "sph/tait.hpp"
 
 namespace gdesp::sph {
@@ -15,14 +16,9 @@ struct RecordPacker {
   const std::uint32_t* id;
   const float* porosity;  // null: 1
   const float* mass_share;
-  float least_pressure;   // of A: 0 where water cavitates
+  bool cavitates;
   float* record;
 
-  // @eq sph.cavitation
-  //   P = max(P, 0): water that is pulled apart opens instead of holding together. Without it SPH water in tension
-  //   clumps (tensile instability) and sprays. The density itself is left free: holding it up too would pump energy
-  //   into every opening and closing (tried: speeds doubled). `paper` does without.
-  //   Source: Monaghan (1994), J. Comput. Phys. 110, 399, doi:10.1006/jcph.1994.1034.
   GDESP_HD void operator()(Index slot, const FixedPosition& p, const Vec3f& v, float D) const {
     const Index c = slot / exec::cluster_size;
     float* r = record + record_offset(c) + slot % exec::cluster_size;
@@ -34,12 +30,13 @@ struct RecordPacker {
     }
     const Vec3f x = domain.relative_to_tile(p, cluster_tile[c]);
     const float ratio = 1.0f + D;
-    const float A = real::max(tait_pressure(porosity ? ratio / porosity[slot] - 1.0f : D), least_pressure);
+    const float at_rest = porosity ? porosity[slot] : 1.0f;
+    const float A = cavitated_pressure(tait_pressure(porosity ? ratio / at_rest - 1.0f : D), cavitates);
     const float M = mass_share ? mass_share[slot] : 1.0f;
     r[0] = x.x;
     r[4] = x.y;
     r[8] = x.z;
-    r[12] = paper_form ? M : M / ratio;
+    r[12] = paper_form ? M : M / cavitated_density(ratio, at_rest, cavitates);
     r[16] = v.x;
     r[20] = v.y;
     r[24] = v.z;

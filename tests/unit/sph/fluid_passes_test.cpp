@@ -17,6 +17,7 @@ SimulationInput jittered_drop(unsigned seed, bool walls) {
   const double dp = 0.02;
   SimulationInput input = test::tank_input({0.3, 0.3, 0.3}, 0.3, dp, 3);
   if (!walls) input.boundary = {};
+  input.fluid_parameters.cavitates = false;
   test::fill_block(input.fluid, {0.04, 0.0, 0.0}, {0.24, 0.2, 0.2}, dp, false);
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> u(-1.0, 1.0);

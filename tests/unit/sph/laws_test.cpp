@@ -167,12 +167,12 @@ TEST(RecordPacker, water_in_tension_has_no_pressure_where_it_cavitates) {
   const Vec3<std::int32_t> tile{};
   const std::uint32_t id[4] = {0, 1, 2, 3};
   float record[32] = {};
-  RecordPacker packer{domain, false, &tile, id, nullptr, nullptr, 0.0f, record};
+  RecordPacker packer{domain, false, &tile, id, nullptr, nullptr, true, record};
   packer(0, FixedPosition{}, Vec3f{}, -0.01f);
   packer(1, FixedPosition{}, Vec3f{}, 0.01f);
   EXPECT_EQ(record[28], 0.0f);
   EXPECT_GT(record[29], 0.0f);
-  packer.least_pressure = -1.0e30f;
+  packer.cavitates = false;
   packer(0, FixedPosition{}, Vec3f{}, -0.01f);
   EXPECT_LT(record[28], 0.0f);
 }
