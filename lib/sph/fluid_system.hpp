@@ -17,7 +17,7 @@ namespace gdesp::sph {
 struct FluidExtremes {
   float speed2 = 0.0f;         ///< (m/s)^2
   float acceleration2 = 0.0f;  ///< (m/s2)^2, without gravity at rest counted
-  float density_error = 0.0f;  ///< |rho/rho0 - 1|, true density
+  float density_error = 0.0f;  ///< |rho/rho0 - 1|, true density; compression only where water cavitates
   int non_finite = 0;
 };
 

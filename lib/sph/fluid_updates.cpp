@@ -16,7 +16,7 @@ struct HalfDrift {
     if (packer.id[s] != no_particle) {
       const Vec3f v = state.velocity[s];
       state.position[s] = packer.domain.moved(state.position[s], static_cast<Vec3d>(v * dt_position));
-      state.density[s] += state.rate_at(s, 3) * dt_density;
+      state.density[s] = cavitated_floor(state.density[s] + state.rate_at(s, 3) * dt_density, packer.cavitates);
     }
     packer(s, state.position[s], state.velocity[s], state.density[s]);
   }
@@ -98,6 +98,7 @@ struct ExtremeOf {
   FluidStateView state;
   const std::uint32_t* id;
   const float* porosity;
+  bool cavitates;
   GDESP_HD FluidExtremes operator()(Index s) const {
     FluidExtremes e;
     if (id[s] == no_particle) return e;
@@ -105,7 +106,8 @@ struct ExtremeOf {
     e.speed2 = dot(v, v);
     e.acceleration2 = dot(a, a);
     const float ratio = (1.0f + state.density[s]) / (porosity ? porosity[s] : 1.0f);
-    e.density_error = ::fabsf(ratio - 1.0f);
+    // Water that opens is no error where it cavitates.
+    e.density_error = cavitates ? real::max(ratio - 1.0f, 0.0f) : ::fabsf(ratio - 1.0f);
     const float sum = e.speed2 + e.acceleration2 + e.density_error;
     e.non_finite = (sum - sum == 0.0f) ? 0 : 1;
     return e;
@@ -263,7 +265,7 @@ void FluidSystem<Exec>::evolve_dynamic_walls(float dt) {
 template <class Exec>
 FluidExtremes FluidSystem<Exec>::extremes() {
   return exec::reduce(exec_, "sph::extremes", slots(), FluidExtremes{},
-                      ExtremeOf{state_view(), id_.data(), coupled_ ? porosity_.data() : nullptr}, CombineExtremes{});
+                      ExtremeOf{state_view(), id_.data(), coupled_ ? porosity_.data() : nullptr, parameters_.cavitates}, CombineExtremes{});
 }
 
 template <class Exec>
