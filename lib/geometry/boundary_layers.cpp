@@ -103,21 +103,6 @@ void add_box_body(const Box& box, std::int32_t number, const Lattice& lattice, B
   }
 }
 
-
-/// The closed faces of a tank, normals into the tank.
-TriangleMesh tank_faces(const WallPart& tank) {
-  static const char* const face[6] = {"x-", "x+", "y-", "y+", "bottom", "top"};
-  TriangleMesh box = box_mesh(tank.tank), out;   // box_mesh lists its faces in the same order, two triangles each
-  flip(box);
-  out.vertex = box.vertex;
-  for (int f = 0; f < 6; ++f) {
-    if (is_open(tank, face[f])) continue;
-    out.triangle.push_back(box.triangle[2 * f]);
-    out.triangle.push_back(box.triangle[2 * f + 1]);
-  }
-  return out;
-}
-
 }  // namespace
 
 void add_tank_layers(const SceneParts& parts, const Lattice& lattice, BoundaryTable& out) {
@@ -160,16 +145,17 @@ void add_body_layers(const SolidPart& body, std::int32_t number, const Lattice& 
   if (added == 0) throw Error(ErrorKind::input, body.name + " is thinner than resolution.dp = " + std::to_string(lattice.dp) + " m: no particle fits; refine dp");
 }
 
-WallSurfaces wall_surfaces(const SceneParts& parts) {
-  WallSurfaces walls;
-  walls.mesh = parts.terrain;
-  walls.material.assign(parts.terrain.triangle.size(), 1);
-  for (std::size_t k = 0; k < parts.walls.size(); ++k) {
-    const WallPart& w = parts.walls[k];
-    append(walls.mesh, w.kind == WallPart::Kind::tank ? tank_faces(w) : w.mesh);
-    walls.material.resize(walls.mesh.triangle.size(), 2 + static_cast<std::int32_t>(k));
+TriangleMesh tank_faces(const WallPart& tank) {
+  static const char* const face[6] = {"x-", "x+", "y-", "y+", "bottom", "top"};
+  TriangleMesh box = box_mesh(tank.tank), out;   // box_mesh lists its faces in the same order, two triangles each
+  flip(box);
+  out.vertex = box.vertex;
+  for (int f = 0; f < 6; ++f) {
+    if (is_open(tank, face[f])) continue;
+    out.triangle.push_back(box.triangle[2 * f]);
+    out.triangle.push_back(box.triangle[2 * f + 1]);
   }
-  return walls;
+  return out;
 }
 
 }  // namespace gdesp::geometry

@@ -25,7 +25,7 @@ void add_band_layers(const std::vector<BandPoint>& band, const SceneParts& parts
 /// Throws Error(input) when a mesh body is thinner than dp everywhere.
 void add_body_layers(const SolidPart& body, std::int32_t number, const Lattice& lattice, BoundaryTable& out);
 
-/// The surfaces at rest as triangles with a material each: 1 terrain, 2 + index walls. Tank faces look inward.
-WallSurfaces wall_surfaces(const SceneParts& parts);
+/// The closed faces of a tank, normals into the tank.
+TriangleMesh tank_faces(const WallPart& tank);
 
 }  // namespace gdesp::geometry

@@ -58,7 +58,7 @@ std::vector<BandPoint> wall_band(const Layout& layout, const FillSpace& space, c
     request.upper[a] = flat ? 0 : layout.lattice.last_at_or_below(a, layout.domain.upper[a]);
   }
   request.half_width = boundary_layer_count;
-  return signed_distance_band(wall_surfaces(layout.parts), request, vdb_path, layout.offset);
+  return signed_distance_band(layout.walls, request, vdb_path, layout.offset);
 }
 
 std::vector<PorousRegion> porous_regions(const Layout& layout, const FillSpace& space) {
@@ -109,10 +109,19 @@ void add_body(const Layout& layout, const SolidPart& part, Body body, Case& out)
   }
 }
 
+/// All triangles are kept whose plan lies in the domain, and vertices without a triangle dropped.
+Box grown_domain(const Layout& layout) {
+  Box box = layout.domain;
+  box.lower.z = -1e300;
+  box.upper.z = 1e300;
+  if (layout.scene.dimensions == 2) box.lower.y = -1e300, box.upper.y = 1e300;
+  return box;
+}
+
 void add_walls(const Layout& layout, Case& out) {
-  TriangleMesh walls = wall_surfaces(layout.parts).mesh;
-  out.walls.vertex = std::move(walls.vertex);
-  out.walls.triangle = std::move(walls.triangle);
+  const TriangleMesh walls = crop(layout.walls.mesh, grown_domain(layout));
+  out.walls.vertex = walls.vertex;
+  out.walls.triangle = walls.triangle;
   out.walls.body.assign(out.walls.triangle.size(), 0);
 }
 

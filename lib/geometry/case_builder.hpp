@@ -47,6 +47,7 @@ struct Layout {
   Vec3d offset;
   Lattice lattice;
   Box domain;                       ///< case coordinates
+  WallSurfaces walls;               ///< exposed surface of everything at rest
 };
 Layout lay_out(const Scene& scene, Notes& notes);
 

@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "geometry/body_builder.hpp"
 #include "geometry/case_builder.hpp"
+#include "geometry/surface_union.hpp"
 
 namespace gdesp::geometry {
 namespace {
@@ -148,6 +149,7 @@ Layout lay_out(const Scene& scene, Notes& notes) {
     out.parts.terrain = crop(out.parts.terrain, keep);
     if (out.parts.terrain.empty()) throw Error(ErrorKind::input, "domain: no terrain lies inside it; are both in the same coordinates?");
   }
+  out.walls = exposed_surfaces(out.parts, notes);
   if (has_tank(out.parts)) warn_of_odd_tanks(out.parts, out.scene, notes);
   return out;
 }

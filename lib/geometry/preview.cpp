@@ -90,7 +90,7 @@ Colour colour_of(const Sample& s, const Box& box) {
 
 double cell_size(double width, double height, double dp) { return std::max(1.01 * dp, std::max(width, height) / 500.0); }
 
-/// The plane of the section: through the grains' middle, else the bodies', else the water's; along the water's longer side.
+/// The plane of the section: through the grains' middle, from them towards the water; without grains along the water's longer side.
 struct SectionPlane { bool along_x; double at; };
 SectionPlane section_plane(const Case& c) {
   Box water = empty_box(), grains = empty_box();
@@ -98,7 +98,8 @@ SectionPlane section_plane(const Case& c) {
   for (const auto& p : c.grains.position) extend(grains, p);
   if (is_empty(water)) water = c.domain;
   const Box& through = is_empty(grains) ? water : grains;
-  const bool along_x = c.scene.dimensions == 2 || extent(water).x >= extent(water).y;
+  const Vec3d apart = is_empty(grains) ? extent(water) : (grains.lower + grains.upper) - (water.lower + water.upper);
+  const bool along_x = c.scene.dimensions == 2 || std::abs(apart.x) >= std::abs(apart.y);
   const int across = along_x ? 1 : 0;
   return {along_x, 0.5 * (through.lower[across] + through.upper[across])};
 }

@@ -55,7 +55,9 @@ BandPoint measure(const WallSurfaces& walls, const BandRequest& r, const Index3&
     const Vec3d n = cross(b - a, c - a);
     normal = n * (1.0 / std::max(norm(n), 1e-300));
   }
-  return {at, static_cast<float>(sign * distance), static_cast<Vec3f>(normal), walls.material[triangle]};
+  // A point on the surface itself keeps the side that the columns gave it.
+  const double apart = std::max(distance, 1e-6 * r.lattice.dp);
+  return {at, static_cast<float>(sign * apart), static_cast<Vec3f>(normal), walls.material[triangle]};
 }
 
 void write_grids(const std::string& path, const std::vector<BandPoint>& band, const BandRequest& r, const Vec3d& offset) {

@@ -24,7 +24,7 @@ TriangleMesh bounding_surfaces(const Layout& layout, const SolidPart& shape, dou
   const Box near = grown(bounds(shape.mesh), reach);
   TriangleMesh out = shape.mesh;
   flip(out);
-  append(out, crop(wall_surfaces(layout.parts).mesh, near));
+  append(out, crop(layout.walls.mesh, near));
   for (const auto* list : {&layout.parts.moving, &layout.parts.floating}) {
     for (const auto& b : *list) append(out, crop(b.mesh, near));
   }

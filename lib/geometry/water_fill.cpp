@@ -53,9 +53,10 @@ std::vector<Vec3d> lattice_points(const ColumnIntervals& inside, const FillSpace
     for (int i = 0; i < grid.nx; ++i) {
       const std::size_t c = grid.index(i, j);
       for (std::size_t k = inside.first[c]; k < inside.first[c + 1]; ++k) {
+        // The bounds are compared exactly as the walls' inside test does: a point is in the water or in the wall, never both.
         const std::int32_t k0 = std::max(low, s.lattice.first_at_or_above(2, std::max(inside.interval[k].lower, s.domain.lower.z)));
-        const double top = std::min(inside.interval[k].upper, s.domain.upper.z);
-        for (std::int32_t m = k0; m <= high && s.lattice.coordinate(2, m) < top - 1e-9 * s.lattice.dp; ++m) {
+        for (std::int32_t m = k0; m <= high && s.lattice.coordinate(2, m) < inside.interval[k].upper; ++m) {
+          if (s.lattice.coordinate(2, m) < inside.interval[k].lower) continue;
           const Vec3d p = s.lattice.point({s.columns.i0 + i, s.columns.j0 + j, m});
           if (is_clear(p, parts, s.lattice)) out.push_back(p);
         }

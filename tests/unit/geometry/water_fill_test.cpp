@@ -107,6 +107,30 @@ TEST(WaterFill, FluidAndWallsCompleteTheLattice) {
   EXPECT_EQ(missing, 0u);
 }
 
+// A bed that runs exactly through lattice points: each of them is water or wall, not both and not neither.
+TEST(WaterFill, BedThroughLatticePoints) {
+  const Folder folder;
+  write_esri_ascii(field(0, 0, 2.0, 21, 21, [](double x, double y) { return std::max(std::abs(x - 20), std::abs(y - 20)) > 14 ? 20.0 : 0.0; }), folder.file("pan.asc"), 3);
+  Scene s;
+  s.dp = 2.0;
+  s.terrain.files = {folder.file("pan.asc")};
+  FluidFill fill;
+  fill.level = 5.0;   // cell centres at 4, 2, 0: the bed
+  fill.seed = Point2{20, 20};
+  s.fluid.fill = {fill};
+  BuildReport report;
+  const Case c = build_case(s, report);
+  std::vector<std::array<long, 3>> all;
+  for (const auto* list : {&c.fluid.position, &c.boundary.position}) {
+    for (const auto& p : *list) {
+      if (std::abs(p.x - 20) < 8 && std::abs(p.y - 20) < 8) all.push_back({std::lround(p.x * 1e3), std::lround(p.y * 1e3), std::lround(p.z * 1e3)});
+    }
+  }
+  std::sort(all.begin(), all.end());
+  EXPECT_EQ(std::adjacent_find(all.begin(), all.end()), all.end());
+  EXPECT_EQ(all.size() % 6, 0u);   // per column: 4, 2, 0 as water and -2, -4, -6 as wall
+}
+
 TEST(WaterFill, PolygonSeedsAndBounds) {
   const Folder folder;
   Scene s = bowls(folder, 2.0);
