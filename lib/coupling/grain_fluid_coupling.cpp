@@ -164,7 +164,10 @@ struct ForcesOnGrains {
     const float K = law == Drag::ergun_wen_yu ? ergun_wen_yu_drag(state) : di_felice_drag(state);
     // Fluid that belongs to the grain.
     const float fluid_mass = density * V * eps / real::max(1.0f - eps, 1.0e-3f);
-    const float m_added = wet * added_mass_factor * density * V;
+    // Faded out towards a packed bed: buoyancy and added mass together react with (1 - eps)(1 + C_m) of the water's own
+    // pressure acceleration, which explicit coupling bears only below one.
+    const float dilute = real::min(real::max((eps - 0.6f) / 0.3f, 0.0f), 1.0f);
+    const float m_added = wet * dilute * added_mass_factor * density * V;
     porosity[s] = eps;
     fluid_velocity[s] = u;
     drag_coefficient[s] = implicit_drag(wet * K * V, grain[s].mass + m_added, fluid_mass, dt);

@@ -14,7 +14,8 @@
 //   f_a = -V_a sum_i F_i W_ai / S_i, so that sum_a f_a = -sum_i F_i. F_i: all fluid forces on grain i, averaged over
 //   the step [N]. Eqs 17-18 of the paper.
 // @eq coupling.added-mass
-//   f_i = C_m rho V_i (Du/Dt - dv/dt), C_m = 1/2 for a sphere. Source: Maxey and Riley (1983), doi:10.1063/1.864230.
+//   f_i = C_m rho V_i (Du/Dt - dv/dt), C_m = 1/2 for a sphere; faded out from eps = 0.9 to 0.6 (explicit coupling is not
+//   stable with it in a packed bed). Source: Maxey and Riley (1983), doi:10.1063/1.864230.
 #pragma once
 
 #include "coupling/drag_kinds.hpp"
