@@ -75,7 +75,12 @@ struct BuildRows {
     return radius > 0.0f;
   }
 
-  // visit(j cluster, bits of pairs about to touch, bits of all pairs within the skin), for clusters with some.
+  // Pairs with j cluster j, as bits.
+  struct Found {
+    Index j;
+    std::uint16_t near, all;
+  };
+  // visit(found) for each j cluster with pairs within the skin; near: those about to touch.
   template <class Lanes, class Visit>
   GDESP_HD void for_each_near(Index c, const Lanes& lanes, const Visit& visit) const {
     using Real = typename Lanes::Real;
@@ -100,7 +105,9 @@ struct BuildRows {
         unsigned all = lanes.bits(r2 < limit * limit);
         if (all == 0) continue;
         if (j == c && o.x == 0 && o.y == 0 && o.z == 0) all &= ~0x8421u;
-        if (all != 0) visit(j, all & lanes.bits(r2 < touch * touch), all);
+        if (all != 0) {
+          visit(Found{j, static_cast<std::uint16_t>(all & lanes.bits(r2 < touch * touch)), static_cast<std::uint16_t>(all)});
+        }
       }
     });
   }
@@ -137,17 +144,17 @@ struct BuildRows {
   // Where the pairs of the next j cluster go.
   struct Places {
     FourCounts near, far;
+    Index overflow[4];
   };
   template <class Lanes>
-  GDESP_HD void put(Index c, const Lanes& lanes, Index overflow[4], Index j, unsigned near, unsigned all,
-                    Places& places) const {
-    const unsigned far = all & ~near;
+  GDESP_HD void put(Index c, const Lanes& lanes, const Found& found, Places& places) const {
+    const unsigned near = found.near, all = found.all, far = all & ~near;
     lanes.for_each_bit(all, [&](int lane) {
       const int i = lane >> 2, jj = lane & 3;
       const bool touching = (near >> lane) & 1u;
       const Index place = touching ? places.near[i] + ones_below(near, i, jj) : places.far[i] + ones_below(far, i, jj);
-      const Index slot = exec::cluster_size * c + i, other = exec::cluster_size * j + jj;
-      const Index index = row_index(slot, overflow[i], place / 8);
+      const Index slot = exec::cluster_size * c + i, other = exec::cluster_size * found.j + jj;
+      const Index index = row_index(slot, places.overflow[i], place / 8);
       rows[index].neighbour[place % 8] = other;
       if (touching && !first) copy_history(slot, other, index, place % 8);
     });
@@ -184,35 +191,33 @@ struct BuildRows {
   GDESP_HD void operator()(Index c, const Lanes& lanes) const {
     FourCounts near_count, all_count;
     Places places;
-    Index overflow[4];
 #if defined(__CUDA_ARCH__)
     // Two walks: count, fill.
-    for_each_near(c, lanes, [&](Index, unsigned near, unsigned all) {
-      near_count.add(near);
-      all_count.add(all);
+    for_each_near(c, lanes, [&](const Found& found) {
+      near_count.add(found.near);
+      all_count.add(found.all);
     });
-    if (!take_rows(c, lanes, all_count, overflow)) return;
+    if (!take_rows(c, lanes, all_count, places.overflow)) return;
     places.far = near_count;
-    for_each_near(c, lanes, [&](Index j, unsigned near, unsigned all) { put(c, lanes, overflow, j, near, all, places); });
+    for_each_near(c, lanes, [&](const Found& found) { put(c, lanes, found, places); });
 #else
     // One walk into a buffer; a second walk when it does not hold all.
-    struct Found { Index j; std::uint16_t near, all; };
     constexpr Index buffer_size = 512;
     Found buffer[buffer_size];
-    Index found = 0;
-    for_each_near(c, lanes, [&](Index j, unsigned near, unsigned all) {
-      if (found < buffer_size) buffer[found] = {j, static_cast<std::uint16_t>(near), static_cast<std::uint16_t>(all)};
-      ++found;
-      near_count.add(near);
-      all_count.add(all);
+    Index count = 0;
+    for_each_near(c, lanes, [&](const Found& found) {
+      if (count < buffer_size) buffer[count] = found;
+      ++count;
+      near_count.add(found.near);
+      all_count.add(found.all);
     });
-    if (!take_rows(c, lanes, all_count, overflow)) return;
+    if (!take_rows(c, lanes, all_count, places.overflow)) return;
     places.far = near_count;
-    if (found <= buffer_size) {
-      for (Index k = 0; k < found; ++k) put(c, lanes, overflow, buffer[k].j, buffer[k].near, buffer[k].all, places);
+    if (count <= buffer_size) {
+      for (Index k = 0; k < count; ++k) put(c, lanes, buffer[k], places);
       return;
     }
-    for_each_near(c, lanes, [&](Index j, unsigned near, unsigned all) { put(c, lanes, overflow, j, near, all, places); });
+    for_each_near(c, lanes, [&](const Found& found) { put(c, lanes, found, places); });
 #endif
   }
 };

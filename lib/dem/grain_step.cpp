@@ -17,6 +17,15 @@ struct GrainStep {
     R overlap{0.0f};             // overlap / diameter
   };
 
+  // What rolling resistance needs of a row besides the contacts: which lanes touch, and the neighbours' records.
+  template <class R, class Mask>
+  struct Neighbours {
+    const Mask& touching;
+    const R& radius;
+    const R& mass;
+    const R* surface;   // three: radius times angular velocity
+  };
+
   // Eight contacts. q: gathered quarters of the neighbours' records.
   template <class Lanes>
   GDESP_HD void add_row(const GrainRecord& own, Index index, const Lanes& lanes,
@@ -74,39 +83,38 @@ struct GrainStep {
                    sums.torque.z + select(touching, torque.z * share, zero)};
     sums.overlap = max(sums.overlap, select(touching, overlap / (R(4.0f) * g.radius), zero));
     if constexpr (Rolling) {
-      add_rolling(own, index, lanes, g, c, touching, radius_j, mass_j, spin, sums);
+      const Vec3<R> t = rolling(own, v.contacts.rolling[index], g, c,
+                                Neighbours<R, decltype(touching)>{touching, radius_j, mass_j, spin}, lanes);
+      sums.torque = sums.torque + t;
     }
   }
 
-  template <class Lanes, class R, class Mask>
-  GDESP_HD void add_rolling(const GrainRecord& own, Index index, const Lanes& lanes, const ContactGeometry<R>& g,
-                            const ContactForce<R>& c, const Mask& touching, const R& radius_j, const R& mass_j,
-                            const R* spin_j, Sums<R>& sums) const {
+  // Rolling torques over the grain's radius, N.
+  template <class R, class Mask, class Lanes>
+  GDESP_HD Vec3<R> rolling(const GrainRecord& own, RollingRow& row, const ContactGeometry<R>& g, const ContactForce<R>& c,
+                           const Neighbours<R, Mask>& other, const Lanes& lanes) const {
     using real::select;
-    const R zero(0.0f);
-    RollingRow& row = v.contacts.rolling[index];
-    Vec3<R> history{lanes.load(row.mx), lanes.load(row.my), lanes.load(row.mz)};
+    const R zero(0.0f), radius_i(own.radius), about_contact(1.0f + v.inertia_factor);
+    const R inertia_i = about_contact * R(own.mass) * R(own.radius) * R(own.radius);
+    const R inertia_j = about_contact * other.mass * other.radius * other.radius;
     RollingMotion<R> motion;
     motion.n = g.n;
     // Quotients, not products: a fused multiply-add would round the two copies of the contact differently.
-    const R radius_i(own.radius);
-    motion.w = {R(own.sx) / radius_i - spin_j[0] / radius_j, R(own.sy) / radius_i - spin_j[1] / radius_j,
-                R(own.sz) / radius_i - spin_j[2] / radius_j};
+    motion.w = {R(own.sx) / radius_i - other.surface[0] / other.radius,
+                R(own.sy) / radius_i - other.surface[1] / other.radius,
+                R(own.sz) / radius_i - other.surface[2] / other.radius};
     motion.radius = g.radius;
-    const R about_contact(1.0f + v.inertia_factor);
-    const R inertia_i = about_contact * R(own.mass) * R(own.radius) * R(own.radius);
-    const R inertia_j = about_contact * mass_j * radius_j * radius_j;
     motion.inertia = harmonic_half(inertia_i, inertia_j);
     motion.normal_force = c.normal_force;
     motion.half_before = R(v.half.before);
     motion.half_after = R(v.half.after);
+    Vec3<R> history{lanes.load(row.mx), lanes.load(row.my), lanes.load(row.mz)};
     const Vec3<R> t = rolling_torque(laws.rolling_friction, c.normal_stiffness, motion, history);
-    lanes.store(row.mx, select(touching, history.x, zero));
-    lanes.store(row.my, select(touching, history.y, zero));
-    lanes.store(row.mz, select(touching, history.z, zero));
-    sums.torque = {sums.torque.x + select(touching, t.x / radius_i, zero),
-                   sums.torque.y + select(touching, t.y / radius_i, zero),
-                   sums.torque.z + select(touching, t.z / radius_i, zero)};
+    lanes.store(row.mx, select(other.touching, history.x, zero));
+    lanes.store(row.my, select(other.touching, history.y, zero));
+    lanes.store(row.mz, select(other.touching, history.z, zero));
+    return {select(other.touching, t.x / radius_i, zero), select(other.touching, t.y / radius_i, zero),
+            select(other.touching, t.z / radius_i, zero)};
   }
 
   template <class Lanes>

@@ -332,7 +332,7 @@ void GrainSystem<Exec>::run(const ContactLaws<Law>& pair, const ContactLaws<Law>
                             const std::vector<BodyPose>& poses, const HalfSteps& half) {
   const float inertia = inertia_factor(domain_.dimensions);
   if (walls_.grains() > 0) {
-    walls_.step(wall, now_.data(), start_.data(), poses, half, inertia, measure_.data());
+    walls_.step(wall, {now_.data(), start_.data(), half, inertia}, poses, measure_.data());
     overlap_ = std::max(overlap_, measure_.read(0).value[measure_overlap]);
   }
   GrainStepView view{contacts_.view(), position_unit(domain_), now_.data(), next_.data(), start_.data(),

@@ -310,14 +310,13 @@ void WallContacts<Exec>::build(const ClusterSet<Exec>& set, const Array<FixedPos
 
 template <class Exec>
 template <class Law>
-void WallContacts<Exec>::step(const ContactLaws<Law>& laws, const GrainRecord* now, const Vec3<std::int32_t>* start,
-                              const std::vector<BodyPose>& poses, const HalfSteps& half, float inertia_factor,
+void WallContacts<Exec>::step(const ContactLaws<Law>& laws, const WallMotion& motion, const std::vector<BodyPose>& poses,
                               exec::Largest* measure) {
   if (poses.size() > 1 || pose_.empty()) pose_.assign(poses);  // walls at rest stay where they are
   run_wall_step(exec_, laws,
-                WallStepView{mesh_view(), position_unit(domain_), now, start, slot_.data(), row_begin_.data(),
-                             rows_.data(), gaps_.data(), pose_.data(), history_.data(), force_.data(), impulse_.data(),
-                             impulse_unit_, inertia_factor, half},
+                WallStepView{mesh_view(), position_unit(domain_), motion.now, motion.start, slot_.data(),
+                             row_begin_.data(), rows_.data(), gaps_.data(), pose_.data(), history_.data(),
+                             force_.data(), impulse_.data(), impulse_unit_, motion.inertia_factor, motion.half},
                 grains_, measure);
 }
 
@@ -334,11 +333,9 @@ std::vector<BodyImpulse> WallContacts<Exec>::take_impulses() {
 }
 
 template class WallContacts<exec::CompiledBackend>;
-template void WallContacts<exec::CompiledBackend>::step(const ContactLaws<HertzMindlin>&, const GrainRecord*,
-                                                        const Vec3<std::int32_t>*, const std::vector<BodyPose>&,
-                                                        const HalfSteps&, float, exec::Largest*);
-template void WallContacts<exec::CompiledBackend>::step(const ContactLaws<LinearSpringDashpot>&, const GrainRecord*,
-                                                        const Vec3<std::int32_t>*, const std::vector<BodyPose>&,
-                                                        const HalfSteps&, float, exec::Largest*);
+template void WallContacts<exec::CompiledBackend>::step(const ContactLaws<HertzMindlin>&, const WallMotion&,
+                                                        const std::vector<BodyPose>&, exec::Largest*);
+template void WallContacts<exec::CompiledBackend>::step(const ContactLaws<LinearSpringDashpot>&, const WallMotion&,
+                                                        const std::vector<BodyPose>&, exec::Largest*);
 
 }  // namespace gdesp::dem

@@ -14,6 +14,14 @@ struct ListedPose {
   std::int32_t present = 1, reserved = 0;
 };
 
+/// The grains as a sub-step finds them.
+struct WallMotion {
+  const GrainRecord* now;
+  const Vec3<std::int32_t>* start;   ///< fraction bits when the lists were made
+  HalfSteps half;
+  float inertia_factor;              ///< I / (m R^2)
+};
+
 /// How far to look for walls. The odometer is the way that no grain and body together have exceeded since the start;
 /// quiet_until (by slot) is its reading up to which a grain is known to be far from walls.
 struct WallReach {
@@ -41,8 +49,8 @@ class WallContacts {
              const std::vector<ListedPose>& poses, const WallReach& reach, bool first);
   /// Forces at time n; poses by body number.
   template <class Law>
-  void step(const ContactLaws<Law>& laws, const GrainRecord* now, const Vec3<std::int32_t>* start,
-            const std::vector<BodyPose>& poses, const HalfSteps& half, float inertia_factor, exec::Largest* measure);
+  void step(const ContactLaws<Law>& laws, const WallMotion& motion, const std::vector<BodyPose>& poses,
+            exec::Largest* measure);
   const WallForce* forces() const { return force_.data(); }
 
   /// Impulses on bodies 1, 2, ... since the last call.

@@ -62,15 +62,20 @@ struct WallStep {
     Vec3<R> m;
   };
 
+  // One edge as the grain's centre sees it: inside of it, along it.
+  template <class R>
+  struct Edge {
+    R inside, along, length;
+    Vec3<R> m;
+  };
   // Takes edge k when it is nearer than what was found.
-  template <class Lanes, class R>
-  GDESP_HD static void try_edge(int k, const Vec3<R>& u, const WallRow& row, const R& length, const Vec3<R>& m,
-                                const Vec3<R>& n, const Lanes& lanes, Nearest<R>& best) {
+  template <class R>
+  GDESP_HD static void try_edge(int k, const Edge<R>& edge, Nearest<R>& best) {
     using real::max;
     using real::min;
     using real::select;
-    const R inside = dot(m, u) + lanes.load(row.inside[k]);
-    const R along = dot(cross(m, n), u) + lanes.load(row.along[k]);
+    const R &inside = edge.inside, &along = edge.along, &length = edge.length;
+    const Vec3<R>& m = edge.m;
     const R beyond = along - max(R(0.0f), min(along, length));
     const R distance2 = inside * inside + beyond * beyond;
     const auto nearer = distance2 < best.distance2;
@@ -83,8 +88,9 @@ struct WallStep {
     best.m = {select(nearer, m.x, best.m.x), select(nearer, m.y, best.m.y), select(nearer, m.z, best.m.z)};
   }
 
+  // True when some triangle is in reach.
   template <class Lanes>
-  GDESP_HD void find_gaps(const Vec3f& displaced, float radius, Index index, const Lanes& lanes) const {
+  GDESP_HD bool find_gaps(const Vec3f& displaced, float radius, Index index, const Lanes& lanes) const {
     using R = typename Lanes::Real;
     using real::min;
     using real::select;
@@ -102,22 +108,27 @@ struct WallStep {
     const R edge0 = dot(m0, u) + lanes.load(row.inside[0]), edge1 = dot(m1, u) + lanes.load(row.inside[1]);
     const R edge2 = dot(m2, u) + lanes.load(row.inside[2]);
     Nearest<R> best{R(1.0e30f), R(0.0f), R(0.0f), R(1.0f), m0};
-    try_edge(0, u, row, q0[3], m0, n, lanes, best);
-    try_edge(1, u, row, q1[3], m1, n, lanes, best);
-    try_edge(2, u, row, q2[3], m2, n, lanes, best);
+    try_edge(0, Edge<R>{edge0, dot(cross(m0, n), u) + lanes.load(row.along[0]), q0[3], m0}, best);
+    try_edge(1, Edge<R>{edge1, dot(cross(m1, n), u) + lanes.load(row.along[1]), q1[3], m1}, best);
+    try_edge(2, Edge<R>{edge2, dot(cross(m2, n), u) + lanes.load(row.along[2]), q2[3], m2}, best);
     const R zero(0.0f);
     const auto outside = min(edge0, min(edge1, edge2)) < zero;
     const R in = select(outside, best.inside, zero), beyond = select(outside, best.beyond, zero);
     const R distance2 = height * height + in * in + beyond * beyond;
     const auto reached = distance2 < R(radius * radius);
+    WallGap& gap = v.gaps[index];
+    if (!lanes.any(reached)) {
+      lanes.store(gap.feature, lanes.truncate(zero));
+      return false;
+    }
     const R kind = select(reached, select(outside, best.kind, R(1.0f)), zero);
     const Vec3<R> along = cross(best.m, n);
-    WallGap& gap = v.gaps[index];
     lanes.store(gap.x, height * n.x + in * best.m.x + beyond * along.x);
     lanes.store(gap.y, height * n.y + in * best.m.y + beyond * along.y);
     lanes.store(gap.z, height * n.z + in * best.m.z + beyond * along.z);
     lanes.store(gap.height, height);
     lanes.store(gap.feature, lanes.truncate(kind));
+    return true;
   }
 
   // A centre behind a face belongs to the front when it came from there.
@@ -140,8 +151,10 @@ struct WallStep {
     }
     return true;
   }
-  GDESP_HD bool make_touch(const WallRow& row, const WallGap& gaps, int lane, float radius, const Vec3f& displaced,
-                           const WallHistory& history, Touch& touch) const {
+  GDESP_HD bool make_touch(Index r, int lane, float radius, const Vec3f& displaced, const WallHistory& history,
+                           Touch& touch) const {
+    const WallRow& row = v.rows[r];
+    const WallGap& gaps = v.gaps[r];
     const int feature = gaps.feature[lane];
     const std::int32_t body = row.body[lane];
     const BodyPose& pose = v.pose[body];
@@ -243,7 +256,7 @@ struct WallStep {
     for (Index r = v.row_begin[w]; r < v.row_begin[w + 1]; ++r) {
       for (int lane = 0; lane < 8; ++lane) {
         Touch touch{};
-        if (make_touch(v.rows[r], v.gaps[r], lane, own.radius, displaced, old, touch)) insert(touch, list, count);
+        if (make_touch(r, lane, own.radius, displaced, old, touch)) insert(touch, list, count);
       }
     }
     WallForce sum{};
@@ -270,10 +283,20 @@ struct WallStep {
     const Vec3f displaced{static_cast<float>(fraction_difference(own.x, start.x)) * v.unit.metres.x,
                           static_cast<float>(fraction_difference(own.y, start.y)) * v.unit.metres.y,
                           static_cast<float>(fraction_difference(own.z, start.z)) * v.unit.metres.z};
-    for (Index r = v.row_begin[w]; r < v.row_begin[w + 1]; ++r) find_gaps(displaced, own.radius, r, lanes);
+    bool reached = false;
+    for (Index r = v.row_begin[w]; r < v.row_begin[w + 1]; ++r) {
+      reached = find_gaps(displaced, own.radius, r, lanes) || reached;
+    }
     lanes.share_memory();
     float overlap = 0.0f;
-    if (lanes.leader()) overlap = resolve(w, own, displaced);
+    if (lanes.leader()) {
+      if (reached) {
+        overlap = resolve(w, own, displaced);
+      } else {
+        v.force[w] = WallForce{};
+        v.history[w].count = 0;
+      }
+    }
     return {{0.0f, 0.0f, overlap, 0.0f}};
   }
 };

@@ -28,6 +28,8 @@ using real::select;
 using real::sqrt;
 
 #if !defined(__CUDACC__)
+// Lanes never cross the border of a library: how they are passed there does not matter.
+#pragma GCC diagnostic ignored "-Wpsabi"
 
 /// Sixteen floats side by side.
 struct Float16 {

@@ -70,6 +70,22 @@ TEST_F(GrainSystemTest, FindsContactsAcrossPeriodsOfOneAndOfTwoBlocks) {
   }
 }
 
+// One large grain among small ones has hundreds of neighbours: its rows are many, its contacts exact.
+TEST_F(GrainSystemTest, FindsTheManyContactsOfALargeGrain) {
+  Random random(4);
+  GrainTable table;
+  add_grain(table, {0.3, 0.3, 0.3}, 0.04, 2500);
+  for (int i = 0; i < 3000; ++i) {
+    add_grain(table, {0.26 + 0.08 * random(), 0.26 + 0.08 * random(), 0.26 + 0.08 * random()}, 0.004, 2500);
+  }
+  Grains grains({}, space({0, 0, 0}, {1, 1, 1}, 0.005), table, soft(), {}, {});
+  EXPECT_EQ(grains.sums().contacts, touching_pairs(table, {}));
+  Grains same({}, space({0, 0, 0}, {1, 1, 1}, 0.005), table, soft(), {}, {});
+  grains.advance(1.0e-5, 3);
+  same.advance(1.0e-5, 3);
+  EXPECT_TRUE(grains.save() == same.save());
+}
+
 TEST_F(GrainSystemTest, ListsHoldWhileGrainsMove) {
   Grains grains({}, space({0, 0, 0}, {1, 1, 1}, 0.005),
                 random_grains(600, {0.3, 0.3, 0.3}, {0.6, 0.6, 0.6}, 5, 2.0), soft(), {}, {});

@@ -250,6 +250,71 @@ TEST_F(WallTest, ManyGrainsStayInTheTank) {
   }
 }
 
+// A heightfield rougher than a grain: nobody falls through or gets lost, and energy only goes.
+TEST_F(WallTest, JaggedGroundHoldsARainOfGrains) {
+  Random random(5);
+  TriangleTable ground = floor_mesh(0, 0.3, 0, 0.3, 0.1, 0.01);
+  for (Vec3d& v : ground.vertex) v.z += 0.02 * random();
+  const TriangleTable box = tank({0, 0, -0.1}, {0.3, 0.3, 0.8});
+  const auto base = static_cast<std::int32_t>(ground.vertex.size());
+  ground.vertex.insert(ground.vertex.end(), box.vertex.begin(), box.vertex.end());
+  for (const auto& t : box.triangle) ground.triangle.push_back({t.x + base, t.y + base, t.z + base});
+  ground.body.assign(ground.triangle.size(), 0);
+  GrainTable table;
+  for (int i = 0; i < 150; ++i) {
+    add_grain(table, {0.03 + 0.24 * random(), 0.03 + 0.24 * random(), 0.16 + 0.2 * random()}, 0.02, 2500,
+              {random(), random(), -8 * random()});
+  }
+  Grains grains({}, space({-0.1, -0.1, -0.2}, {0.4, 0.4, 1.0}, 0.01), table, hard(0.8, 0.4), ground, {0, 0, -9.81});
+  grains.advance(0.004, 200);
+  GrainSums last = grains.sums();
+  for (int k = 0; k < 6; ++k) {
+    grains.advance(0.015, 500);
+    const GrainSums s = grains.sums();
+    EXPECT_LT(s.kinetic_energy + s.potential_energy + s.elastic_energy,
+              1.0005 * (last.kinetic_energy + last.potential_energy + last.elastic_energy));
+    last = s;
+  }
+  EXPECT_EQ(grains.lost(), 0);
+  for (const Vec3d& p : grains.table().position) EXPECT_GT(p.z, 0.1);
+}
+
+// Everything at once: walls, a moving body, rolling; two threads, a checkpoint in the middle.
+TEST_F(WallTest, BodiesGoOnBitForBitFromACheckpoint) {
+  ContactParameters p = hard(0.5, 0.4);
+  p.youngs_modulus = 1.0e7;
+  p.rolling_friction = 0.05;
+  TriangleTable walls = tank({0, 0, 0}, {0.3, 0.2, 0.5});
+  const TriangleTable gate = block({0.1715, 0.0, 0.0}, {0.1755, 0.2, 0.5}, 1);
+  const auto base = static_cast<std::int32_t>(walls.vertex.size());
+  walls.vertex.insert(walls.vertex.end(), gate.vertex.begin(), gate.vertex.end());
+  for (const auto& t : gate.triangle) walls.triangle.push_back({t.x + base, t.y + base, t.z + base});
+  walls.body.insert(walls.body.end(), gate.body.begin(), gate.body.end());
+  GrainTable table;
+  Random random(8);
+  for (int i = 0; i < 6 * 8 * 10; ++i) {
+    add_grain(table, {0.015 + 0.021 * (i % 8), 0.015 + 0.021 * (i / 8 % 6), 0.015 + 0.021 * (i / 48)}, 0.018 + 0.002 * random(),
+              2500);
+  }
+  const auto lift = [](Grains& grains, double begin, double end) {
+    BodyMotionState body;
+    body.centre_begin.z = 0.7 * begin;
+    body.centre_end.z = 0.7 * end;
+    grains.set_bodies({body});
+    grains.advance(end - begin, static_cast<int>((end - begin) / 1.0e-4 + 0.5));
+  };
+  const auto fresh = [&] { return Grains({}, metre(), table, p, walls, {0, 0, -9.81}); };
+  Grains whole = fresh(), first = fresh(), second = fresh();
+  exec::set_threads(2);
+  for (int k = 0; k < 6; ++k) lift(whole, 0.005 * k, 0.005 * (k + 1));
+  exec::set_threads(1);
+  for (int k = 0; k < 4; ++k) lift(first, 0.005 * k, 0.005 * (k + 1));
+  second.load(first.save());
+  for (int k = 4; k < 6; ++k) lift(second, 0.005 * k, 0.005 * (k + 1));
+  EXPECT_TRUE(whole.save() == second.save());
+  EXPECT_GT(norm(whole.take_body_impulses()[0].linear), 0.0);
+}
+
 TEST(WallMesh, WeldsJoinsAndDropsWhatHasNoArea) {
   TriangleTable table = block({0, 0, 0}, {1, 1, 1});
   table.vertex.push_back({0.5, 0.5, 2});
