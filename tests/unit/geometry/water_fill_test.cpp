@@ -123,12 +123,17 @@ TEST(WaterFill, BedThroughLatticePoints) {
   std::vector<std::array<long, 3>> all;
   for (const auto* list : {&c.fluid.position, &c.boundary.position}) {
     for (const auto& p : *list) {
-      if (std::abs(p.x - 20) < 8 && std::abs(p.y - 20) < 8) all.push_back({std::lround(p.x * 1e3), std::lround(p.y * 1e3), std::lround(p.z * 1e3)});
+      if (std::abs(p.x - 20) < 8 && std::abs(p.y - 20) < 8 && p.z > -5.0) all.push_back({std::lround(p.x * 1e3), std::lround(p.y * 1e3), std::lround(p.z * 1e3)});
     }
   }
   std::sort(all.begin(), all.end());
   EXPECT_EQ(std::adjacent_find(all.begin(), all.end()), all.end());
-  EXPECT_EQ(all.size() % 6, 0u);   // per column: 4, 2, 0 as water and -2, -4, -6 as wall
+  // Per column 4, 2, 0 and -2, -4; the third layer of wall, at exactly three spacings, lies on the edge of the band.
+  std::vector<std::array<long, 2>> columns;
+  for (const auto& p : all) columns.push_back({p[0], p[1]});
+  columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+  EXPECT_EQ(all.size(), 5 * columns.size());
+  for (const auto& p : all) EXPECT_EQ(p[2] % 2000, 0);
 }
 
 TEST(WaterFill, PolygonSeedsAndBounds) {
