@@ -4,13 +4,17 @@
 
 #include <openvdb/io/File.h>
 #include <openvdb/openvdb.h>
-#include <openvdb/tools/LevelSetFilter.h>
+#include <openvdb/tools/FastSweeping.h>
+#include <openvdb/tools/Filter.h>
 #include <openvdb/tools/ParticlesToLevelSet.h>
 #include <openvdb/tools/VolumeToMesh.h>
 
+#include <algorithm>
+#include <algorithm>
 #include <filesystem>
 
 #include "analysis/column_grid.hpp"
+#include "analysis/free_surface.hpp"
 #include "analysis/smoothing.hpp"
 #include "core/error.hpp"
 
@@ -28,19 +32,61 @@ struct ParticleList {
   void getPos(std::size_t n, PosType& p) const { p = PosType(position[n].x, position[n].y, position[n].z); }
 };
 
+// The fluid fraction at every particle tells the two layers next to a surface (below 0.985) from the inside.
+struct Parts { std::vector<Vec3d> shell, inside; };
+
+Parts split(std::span<const Vec3d> position, double dp) {
+  const FluidSampler sampler(position, {}, dp, 3);
+  const ColumnGrid& grid = sampler.grid();
+  std::vector<std::uint8_t> deep(position.size());
+#pragma omp parallel for schedule(dynamic, 1024)
+  for (std::size_t s = 0; s < position.size(); ++s) deep[s] = sampler.fluid_fraction(grid.position(s)) > 0.985;
+  Parts parts;
+  for (std::size_t s = 0; s < position.size(); ++s) (deep[s] ? parts.inside : parts.shell).push_back(grid.position(s));
+  return parts;
+}
+
+// Everything around a particle of the inside is water, far from any surface: no balls, no narrow band there.
+void fill_inside(openvdb::FloatGrid& grid, const std::vector<Vec3d>& inside, double dp) {
+  auto voxels = grid.getAccessor();
+  const double reach = 0.75 * dp / grid.voxelSize()[0];
+  const auto corner = [](const openvdb::Vec3d& c) {  // the first voxel at or above
+    return openvdb::Coord(openvdb::math::Ceil(c.x()), openvdb::math::Ceil(c.y()), openvdb::math::Ceil(c.z()));
+  };
+  for (const Vec3d& p : inside) {
+    const openvdb::Vec3d c = grid.worldToIndex(openvdb::Vec3d(p.x, p.y, p.z));
+    const openvdb::Coord low = corner(c - openvdb::Vec3d(reach)), end = corner(c + openvdb::Vec3d(reach));
+    for (int x = low.x(); x < end.x(); ++x) {
+      for (int y = low.y(); y < end.y(); ++y) {
+        for (int z = low.z(); z < end.z(); ++z) voxels.setValueOff({x, y, z}, -grid.background());
+      }
+    }
+  }
+}
+
 openvdb::FloatGrid::Ptr make_level_set(std::span<const Vec3d> position, const SurfaceOptions& options) {
   openvdb::initialize();
   const double voxel = options.voxel > 0.0 ? options.voxel : 0.5 * options.dp;
   auto grid = openvdb::createLevelSet<openvdb::FloatGrid>(voxel, half_width);
-  grid->setName("surface");
   if (position.empty()) return grid;
+  const Parts parts = split(position, options.dp);
   openvdb::tools::ParticlesToLevelSet<openvdb::FloatGrid> raster(*grid);
   raster.setRmin(0.5);
-  raster.rasterizeSpheres(ParticleList{position}, ball * options.dp);
-  raster.finalize(true);
-  openvdb::tools::LevelSetFilter<openvdb::FloatGrid> filter(*grid);
-  filter.mean(1);
-  filter.offset(static_cast<float>((ball - 0.5) * options.dp));
+  raster.rasterizeSpheres(ParticleList{parts.shell}, ball * options.dp);
+  raster.finalize(false);
+  fill_inside(*grid, parts.inside, options.dp);
+  openvdb::tools::pruneLevelSet(grid->tree());
+  // Inside, the least distance to a ball's surface is not the distance to the union's: made so by fast sweeping
+  // (Zhao 2005, Math. Comput. 74, 603, doi 10.1090/S0025-5718-04-01678-3), so that moving inwards closes gaps.
+  grid = openvdb::tools::sdfToSdf(*grid, 0.0f, 1);
+  openvdb::tools::Filter<openvdb::FloatGrid>(*grid).mean(1);
+  // Inwards: every value grows by the same length; beyond the band it stays the band's end.
+  const float inwards = static_cast<float>((ball - 0.5) * options.dp), end = grid->background();
+  openvdb::tools::foreach(grid->beginValueOn(), [=](const openvdb::FloatGrid::ValueOnIter& it) {
+    it.setValue(std::clamp(*it + inwards, -end, end));
+  });
+  grid->setName("surface");
+  grid->setGridClass(openvdb::GRID_LEVEL_SET);
   return grid;
 }
 
