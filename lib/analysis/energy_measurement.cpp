@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 namespace gdesp::analysis {
@@ -130,7 +131,9 @@ std::string EnergyMeasurement::summary() const {
   if (time_.empty()) return {};
   double kinetic = 0.0;
   for (const double v : value_[0]) kinetic = std::max(kinetic, v);
-  return "largest kinetic energy of the water " + format_number(kinetic) + " J, lost at the end " + format_number(value_[7].back()) + " J";
+  char text[120];
+  std::snprintf(text, sizeof text, "largest kinetic energy of the water %.4g J, lost at the end %.4g J", kinetic, value_[7].back());
+  return text;
 }
 
 }  // namespace gdesp::analysis

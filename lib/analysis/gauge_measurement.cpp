@@ -103,11 +103,11 @@ Figure GaugeMeasurement::figure() const {
   pressure.title = "Pressure, " + info_.name;
   pressure.y_label = "pressure (kPa)";
   for (std::size_t k = 0; k < gauge_.size(); ++k) {
-    if (any_number(level_[k])) level.series.push_back({gauge_[k].name, time_, level_[k], {}, {}, MarkStyle::line, {}, static_cast<int>(k)});
+    if (any_number(level_[k])) level.series.push_back({plain_text(gauge_[k].name), time_, level_[k], {}, {}, MarkStyle::line, {}, static_cast<int>(k)});
     if (!any_number(pressure_[k])) continue;
     std::vector<double> kilo = pressure_[k];
     for (double& p : kilo) p *= 1e-3;
-    pressure.series.push_back({gauge_[k].name, time_, std::move(kilo), {}, {}, MarkStyle::line, {}, static_cast<int>(k)});
+    pressure.series.push_back({plain_text(gauge_[k].name), time_, std::move(kilo), {}, {}, MarkStyle::line, {}, static_cast<int>(k)});
   }
   figure.panel.push_back(std::move(level));
   if (!pressure.series.empty()) figure.panel.push_back(std::move(pressure));
@@ -118,7 +118,7 @@ std::string GaugeMeasurement::summary() const {
   std::string text;
   for (std::size_t k = 0; k < gauge_.size(); ++k) {
     const auto t = arrival(k);
-    text += (text.empty() ? "" : "; ") + gauge_[k].name + (t ? ": arrival at t = " + format_number(*t) + " s" : ": no arrival");
+    text += (text.empty() ? "" : "; ") + gauge_[k].name + (t ? ": arrival at t = " + format_number(std::round(*t * 1e3) / 1e3) + " s" : ": no arrival");
   }
   return text;
 }

@@ -144,7 +144,7 @@ Figure MapMeasurement::figure() const {
   }
   const auto add = [&](const char* title, const char* label, const Raster& r, double up) {
     ColourMap m;
-    m.title = std::string(title) + ", " + info_.name;
+    m.title = std::string(title) + ", " + plain_text(info_.name);
     m.x_label = "easting (m)";
     m.y_label = "northing (m)";
     m.value_label = label;

@@ -139,8 +139,8 @@ void write_range(std::ostream& out, const char* axis, const Range& r, bool log, 
 }
 
 void write_panel(std::ostream& out, const Panel& p, int index) {
-  const std::string small_print = p.note.empty() ? "" : "\n{/*0.75 " + p.note + "}";
-  out << "set title " << quoted(p.title + small_print) << " font ',11' offset 0,-0.3\nset xlabel " << quoted(p.x_label)
+  const std::string small_print = p.note.empty() ? "" : "\n{/*0.82 " + p.note + "}";
+  out << "set title " << quoted((p.title.empty() ? "" : "{/*1.08 " + p.title + "}") + small_print) << " offset 0,-0.3\nset xlabel " << quoted(p.x_label)
       << "\nset ylabel " << quoted(p.y_label) << "\n"
       << (p.log_x ? "set logscale x\n" : "unset logscale x\n") << (p.log_y ? "set logscale y\n" : "unset logscale y\n")
       << (p.equal_axes ? "set size ratio -1\n" : "set size noratio\n");
@@ -151,9 +151,9 @@ void write_panel(std::ostream& out, const Panel& p, int index) {
   std::size_t named = 0;
   for (const Series& s : p.series) named += !s.label.empty();
   // The legend below the axis; the margin makes room for its rows.
-  const std::size_t rows = (named + 3) / 4;
+  const std::size_t rows = (named + 2) / 3;
   if (named == 0) out << "unset key\nunset bmargin\n";
-  else out << "set key bmargin center horizontal maxcols 4 maxrows " << rows << " noopaque\nset bmargin " << 4.2 + 1.25 * rows << "\n";
+  else out << "set key bmargin center horizontal maxcols 3 maxrows " << rows << " noopaque\nset bmargin " << 4.4 + 1.3 * rows << "\n";
   std::string command;
   for (std::size_t k = 0; k < p.series.size(); ++k) {
     const std::string block = "p" + std::to_string(index) + "s" + std::to_string(k);
@@ -265,6 +265,15 @@ void run_gnuplot(const std::string& commands, const std::string& log) {
 }
 
 }  // namespace
+
+std::string plain_text(const std::string& name) {
+  std::string out;
+  for (const char c : name) {
+    if (std::string("_^{}@&~\\").find(c) != std::string::npos) out += '\\';
+    out += c;
+  }
+  return out;
+}
 
 void check_plot_path(const std::string& path) {
   const std::string e = extension(path);

@@ -47,6 +47,9 @@ struct Figure {
   double panel_height_mm = 80.0;
 };
 
+/// Labels and titles are set in gnuplot's enhanced text ("x_0", "m^3"): names that users gave go through this first.
+std::string plain_text(const std::string& name);
+
 /// The kinds of file that a plot can have; throws Error(usage) when `path` ends otherwise. Call before long work.
 void check_plot_path(const std::string& path);
 

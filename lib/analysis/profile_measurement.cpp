@@ -132,7 +132,7 @@ void ProfileMeasurement::finish(const RowSink& emit) {
 Figure ProfileMeasurement::figure() const {
   Figure figure;
   Panel panel;
-  panel.title = "Surface along section " + line_.name + ", " + info_.name;
+  panel.title = "Surface along section " + plain_text(line_.name) + ", " + plain_text(info_.name);
   panel.x_label = "distance along the line (m)";
   panel.y_label = "elevation (m)";
   const auto lifted = [&](std::vector<double> v) {
@@ -153,6 +153,7 @@ Figure ProfileMeasurement::figure() const {
   }
   figure.panel.push_back(std::move(panel));
   figure.width_mm = 180.0;
+  figure.panel_height_mm = 105.0;
   return figure;
 }
 

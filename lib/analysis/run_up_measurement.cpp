@@ -94,7 +94,7 @@ Figure RunUpMeasurement::figure() const {
   in_time.y_label = "height above still water (m)";
   in_time.note = "resolution " + format_number(info_.dp) + " m; connected water on a wall";
   for (std::size_t k = 0; k < regions_.size(); ++k) {
-    in_time.series.push_back({regions_[k].name == "all" ? "whole shore" : regions_[k].name, time_, height_[k], {}, {},
+    in_time.series.push_back({regions_[k].name == "all" ? "whole shore" : plain_text(regions_[k].name), time_, height_[k], {}, {},
                               MarkStyle::line, {}, static_cast<int>(k)});
   }
   in_time.y_low = 0.0;
@@ -108,8 +108,8 @@ Figure RunUpMeasurement::figure() const {
   figure.panel.push_back(std::move(in_time));
   if (info_.dimensions == 2) return figure;
   Panel along;
-  along.title = "Highest run-up along the shore, " + regions_[profile_region_].name;
-  along.x_label = "distance along " + line_.name + " (m)";
+  along.title = "Highest run-up along the shore, " + plain_text(regions_[profile_region_].name);
+  along.x_label = "distance along " + plain_text(line_.name) + " (m)";
   along.y_label = "run-up (m)";
   along.y_low = 0.0;
   along.y_high = std::max(1.1 * maximum_[profile_region_].height, info_.dp);

@@ -43,19 +43,19 @@ analysis::Figure draw(const analysis::Curve& ours, const analysis::Curve& refere
   analysis::Panel panel;
   panel.x_label = labels.x;
   panel.y_label = labels.y;
-  panel.title = "Comparison with " + labels.reference;
+  panel.title = "Comparison with " + analysis::plain_text(labels.reference);
   char note[160];
   std::snprintf(note, sizeof note, "RMS %.3g (%.2g %% of the range), bias %.3g, largest %.3g", c.rms, 100.0 * c.rms / c.range, c.bias, c.largest);
   panel.note = note;
   if (!reference.low.empty()) {
     panel.series.push_back({"band", reference.x, reference.y, reference.low, reference.high, analysis::MarkStyle::band, {}, 7});
-    panel.series.push_back({labels.reference, reference.x, reference.y, {}, {}, analysis::MarkStyle::line, {}, 6});
+    panel.series.push_back({analysis::plain_text(labels.reference), reference.x, reference.y, {}, {}, analysis::MarkStyle::line, {}, 6});
   } else {
-    panel.series.push_back({labels.reference, reference.x, reference.y, {}, {}, analysis::MarkStyle::points, {}, 6});
+    panel.series.push_back({analysis::plain_text(labels.reference), reference.x, reference.y, {}, {}, analysis::MarkStyle::points, {}, 6});
   }
   analysis::Curve moved = ours;
   for (double& x : moved.x) x += c.shift;
-  panel.series.push_back({labels.ours, moved.x, moved.y, {}, {}, analysis::MarkStyle::line, {}, 0});
+  panel.series.push_back({analysis::plain_text(labels.ours), moved.x, moved.y, {}, {}, analysis::MarkStyle::line, {}, 0});
   analysis::Figure figure;
   figure.panel.push_back(std::move(panel));
   figure.panel_height_mm = 100.0;

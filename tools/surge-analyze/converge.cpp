@@ -15,9 +15,9 @@ namespace {
 analysis::Figure draw(const std::vector<double>& spacing, const std::vector<double>& value, const analysis::Convergence& c,
                       const std::string& quantity) {
   analysis::Panel panel;
-  panel.title = "Convergence of " + quantity;
+  panel.title = "Convergence of " + analysis::plain_text(quantity);
   panel.x_label = "particle spacing dp (m)";
-  panel.y_label = quantity;
+  panel.y_label = analysis::plain_text(quantity);
   panel.series.push_back({"runs", spacing, value, {}, {}, analysis::MarkStyle::line_points, {}, 0});
   if (c.kind == analysis::ConvergenceKind::monotone) {
     char note[120];

@@ -43,7 +43,7 @@ class SurfaceExport : public analysis::Measurement {
 
   analysis::Figure figure() const override {
     analysis::Panel panel;
-    panel.title = "Volume inside the surface, " + info_.name;
+    panel.title = "Volume inside the surface, " + analysis::plain_text(info_.name);
     panel.x_label = "time t (s)";
     panel.y_label = "volume (m^3)";
     panel.series.push_back({"", time_, volume_, {}, {}, analysis::MarkStyle::line, {}, 0});

@@ -69,7 +69,7 @@ void add_points(const std::string& path, std::vector<Point>& points) {
 
 analysis::Figure draw(const std::vector<Point>& points, const std::vector<bool>& front, const std::string& quantity) {
   analysis::Panel panel;
-  panel.title = "Error against cost, " + quantity;
+  panel.title = "Error against cost, " + analysis::plain_text(quantity);
   panel.note = "lower left is better; the line joins runs that no other beats in both";
   panel.x_label = "wall seconds per simulated second";
   panel.y_label = "error (%)";
@@ -92,14 +92,14 @@ analysis::Figure draw(const std::vector<Point>& points, const std::vector<bool>&
   }
   for (std::size_t g = 0; g < groups.size(); ++g) {
     analysis::Series s;
-    s.label = groups[g];
+    s.label = analysis::plain_text(groups[g]);
     s.style = analysis::MarkStyle::points;
     s.colour = static_cast<int>(g);
     for (const Point& p : points) {
       if (p.group != groups[g]) continue;
       s.x.push_back(p.cost);
       s.y.push_back(std::max(p.error, floor));
-      s.name.push_back(std::isfinite(p.dp) ? "dp " + analysis::format_number(p.dp) : p.name);
+      s.name.push_back(std::isfinite(p.dp) ? "dp " + analysis::format_number(p.dp) : analysis::plain_text(p.name));
     }
     panel.series.push_back(std::move(s));
   }

@@ -56,6 +56,18 @@ printf 'name\terror[%%]\tcost[s/s]\tgroup\nA\t1\t10\tus\nB\t5\t20\tthem\nC\t8\t2
 check "tradeoff" 0 "$ANALYZE" tradeoff --points points.tsv --plot t.svg
 [ "$(column out pareto | tr '\n' ' ')" = "yes no yes " ] || fail "Pareto front: $(column out pareto | tr '\n' ' ')"
 
+# Runs of three resolutions: the run-up of the middle run is 12.3 of 12.857 m at most one spacing off.
+for dp in 16 4; do "$MAKE_RUN" v$dp.case v$dp.run $dp 5 >/dev/null || exit 1; done
+printf '{"status":"done","wall_seconds":30,"t":20,"score":7e4,"device":"cpu","device_name":"test"}' >v4.run/run.json
+check "tradeoff of a run" 0 "$ANALYZE" tradeoff v4.run --quantity 'runup:far bank' --reference 12.857 --points points.tsv
+near "$(column out 'cost[s/s]' | head -1)" 1.5 1e-6 "cost"
+near "$(column out 'error[%]' | head -1)" 0 32 "error of the run-up at dp = 4 m"
+check "tradeoff without cost" 3 "$ANALYZE" tradeoff v.run --reference 12.857
+code=0
+"$ANALYZE" converge v16.run v.run v4.run --quantity level:middle >out 2>err || code=$?
+{ [ "$code" = 0 ] && grep -q monotone out; } || { [ "$code" = 4 ] && grep -qE 'oscillating|diverging' out; } || fail "converge of runs: exit code $code"
+near "$(column out finest)" 2131 0.4 "finest level"
+
 if [ -n "${DISPLAY:-}" ] || command -v xvfb-run >/dev/null; then
   check "render" 0 "$ANALYZE" render v.run -o r.png --size 400,300 --time 5
   [ "$(head -c 4 r.png | tail -c 3)" = PNG ] || fail "no picture"
