@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the measure.py of the validation cases share: a run's tables and frames, reference curves, rows of the table.
+
+A measure.py is called with a run folder, finds surge-analyze on the PATH and prints, tab-separated, a header and
+one row a metric: metric, unit, value, reference, error, band (scripts/validate --help). For standard Python alone.
+"""
+import array
+import base64
+import bisect
+import csv
+import json
+import math
+import re
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+REFERENCE = Path(__file__).resolve().parent.parent / "data" / "reference"
+
+
+class Rows:
+    """Collects rows and prints the table."""
+
+    def __init__(self):
+        print("metric\tunit\tvalue\treference\terror\tband", flush=True)
+
+    def add(self, metric, unit, value, reference, error, band):
+        """`error` in the metric's own terms; accepted when |error| <= band."""
+        print("\t".join([metric, unit, f"{value:.5g}", f"{reference:.5g}" if not isinstance(reference, str) else reference,
+                         f"{error:.3g}", f"{band:g}"]), flush=True)
+
+    def relative(self, metric, unit, value, reference, band):
+        self.add(metric, unit, value, reference, value / reference - 1.0, band)
+
+
+def analyze(command, run, *options):
+    """Rows of a surge-analyze table: numbers under the names of the columns without their units."""
+    text = subprocess.run(["surge-analyze", command, str(run), "--quiet", *options], stdout=subprocess.PIPE, check=True,
+                          text=True).stdout
+    lines = [line.split("\t") for line in text.splitlines()]
+    names = [name.split("[")[0] for name in lines[0]]
+    return [dict(zip(names, map(as_number, line))) for line in lines[1:]]
+
+
+def as_number(text):
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
+def reference(name):
+    """Rows of data/reference/NAME.csv."""
+    with open(REFERENCE / f"{name}.csv", newline="") as file:
+        rows = csv.DictReader(line for line in file if not line.startswith("#"))
+        return [{re.sub(r"\[.*\]", "", key): as_number(value) for key, value in row.items()} for row in rows]
+
+
+def at(x, xs, ys):
+    """Linear between the points, constant beyond."""
+    k = bisect.bisect_right(xs, x)
+    if k == 0:
+        return ys[0]
+    if k == len(xs):
+        return ys[-1]
+    return ys[k - 1] + (ys[k] - ys[k - 1]) * (x - xs[k - 1]) / (xs[k] - xs[k - 1])
+
+
+def scene(run):
+    """The scene of a run, every default filled in."""
+    folder = Path(json.loads((Path(run) / "run.json").read_text())["case"])
+    with open(folder / "case.toml", "rb") as file:
+        return tomllib.load(file)
+
+
+def last_log(run):
+    """The last line of the run's diagnostics."""
+    lines = (Path(run) / "log.ndjson").read_text().strip().splitlines()
+    return next(record for record in map(json.loads, reversed(lines)) if "largest_speed" in record)
+
+
+def read_vtp(path):
+    """The arrays of a VTP file of gdesp-run: name -> list of numbers, or of tuples."""
+    kinds = {"Float32": "f", "Float64": "d", "Int32": "i", "UInt32": "I", "Int64": "q", "UInt64": "Q", "UInt8": "B", "Int8": "b"}
+    arrays = {}
+    text = Path(path).read_text()
+    for head, body in re.findall(r"<DataArray ([^>]*)>([^<]*)</DataArray>", text):
+        given = dict(re.findall(r'(\w+)="([^"]*)"', head))
+        if given.get("format") != "binary" or given.get("type") not in kinds:
+            continue
+        numbers = array.array(kinds[given["type"]], base64.b64decode(body.strip())[8:])
+        width = int(given.get("NumberOfComponents", "1"))
+        arrays[given.get("Name", "")] = (numbers.tolist() if width == 1 else
+                                        [tuple(numbers[k:k + width]) for k in range(0, len(numbers), width)])
+    points = re.search(r"<Points>\s*<DataArray [^>]*Name=\"([^\"]*)\"", text)
+    if points:
+        arrays["position"] = arrays[points.group(1)]
+    return arrays
+
+
+def frames(run, kind="fluid"):
+    """(time in s, path) of each frame, in order of time."""
+    series = (Path(run) / f"{kind}.pvd").read_text()
+    found = []
+    for head in re.findall(r"<DataSet ([^>]*)/>", series):
+        given = dict(re.findall(r'(\w+)="([^"]*)"', head))
+        found.append((float(given["timestep"]), Path(run) / given["file"]))
+    return sorted(found)
+
+
+def frame_near(run, time, kind="fluid"):
+    """(time, arrays) of the frame nearest to a time."""
+    t, path = min(frames(run, kind), key=lambda frame: abs(frame[0] - time))
+    return t, read_vtp(path)
+
+
+def root_mean_square(values):
+    values = list(values)
+    return math.sqrt(sum(v * v for v in values) / len(values)) if values else math.nan
+
+
+def run_argument():
+    if len(sys.argv) != 2:
+        sys.exit("usage: measure.py RUN_FOLDER")
+    return Path(sys.argv[1])
