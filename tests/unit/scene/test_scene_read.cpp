@@ -324,7 +324,7 @@ TEST_F(SceneRead, examples_are_accepted) {
   int read_files = 0;
   if (fs::exists(cases))
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(cases)) {
-      if (entry.path().extension() != ".toml") continue;
+      if (entry.path().extension() != ".toml" || entry.path().filename() == "validation.toml") continue;
       SceneReadOptions options;
       options.check_files = false;
       EXPECT_NO_THROW(read_scene(entry.path().string(), {}, options)) << entry.path();
