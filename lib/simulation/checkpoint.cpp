@@ -26,12 +26,13 @@ template <class Archive>
 void CoupledSimulation<Exec>::archive(Archive& a) {
   std::int32_t bound = number_of_bound(limited_by_);
   a.mark("time");
-  a(time_, last_dt_, density_lag_, step_, rebuilds_, extremes_, body_states_, bound);
+  a(time_, last_dt_, density_lag_, step_factor_, acoustic_step_, step_, rebuilds_, extremes_, body_states_, bound);
   if constexpr (std::is_same_v<Archive, exec::StateReader>) {
     limited_by_ = bounds[static_cast<std::size_t>(bound) % std::size(bounds)];
   }
   a.mark("fluid");
   a(fluid_);
+  input_.fluid_parameters.sound_speed = fluid_.parameters().sound_speed;
   a.mark("coupling");
   a(coupling_moved_, coupling_skin_, grain_dt_, grain_speed_, coupled_rebuild_, water_reset_);
   if (coupling_) a(*coupling_);

@@ -78,7 +78,7 @@ void CoupledSimulation<Exec>::couple_grains(double dt) {
 
 template <class Exec>
 int CoupledSimulation<Exec>::substeps_for(double dt) const {
-  return std::max(1, static_cast<int>(std::ceil(dt / grain_dt_ - 1e-9)));
+  return std::max(1, static_cast<int>(std::ceil(dt / (step_factor_ * grain_dt_) - 1e-9)));
 }
 
 template <class Exec>

@@ -34,7 +34,7 @@ CoupledSimulation<Exec>::CoupledSimulation(const Exec& exec, const SimulationInp
 
 template <class Exec>
 double CoupledSimulation<Exec>::choose_step(double end) {
-  const sph::FluidParameters& p = input_.fluid_parameters;
+  const sph::FluidParameters& p = fluid_.parameters();
   const double left = end - time_;
   double dt = input_.time.fixed_step;
   limited_by_ = "fixed";
@@ -54,6 +54,8 @@ double CoupledSimulation<Exec>::choose_step(double end) {
     dt = grain_dt_;
     limited_by_ = "grains";
   }
+  dt *= step_factor_;
+  acoustic_step_ = fluid_.particles() > 0 ? step_factor_ * input_.time.cfl * p.h / p.sound_speed : 0.0;
   // End exactly at `end`, without a sliver of a step before it.
   if (left <= dt * (1.0 + 1e-9)) { limited_by_ = "output"; return left; }
   if (left < 2.0 * dt) { limited_by_ = "output"; return 0.5 * left; }
@@ -153,6 +155,19 @@ void CoupledSimulation<Exec>::step(double end) {
 }
 
 template <class Exec>
+StepState CoupledSimulation<Exec>::step_state() const {
+  const double speed = std::sqrt(static_cast<double>(extremes_.speed2));
+  return {last_dt_, acoustic_step_, speed / sound_speed(), static_cast<double>(extremes_.density_error)};
+}
+
+template <class Exec>
+void CoupledSimulation<Exec>::set_caution(double step_factor, double sound_speed) {
+  step_factor_ = step_factor;
+  fluid_.set_sound_speed(sound_speed);
+  input_.fluid_parameters.sound_speed = sound_speed;
+}
+
+template <class Exec>
 Diagnostics CoupledSimulation<Exec>::diagnostics() {
   Diagnostics d;
   const sph::FluidSums sums = fluid_.sums();
@@ -166,12 +181,17 @@ Diagnostics CoupledSimulation<Exec>::diagnostics() {
   d.fluid_elastic = sums.elastic_energy;
   d.fluid_momentum = sums.momentum;
   d.largest_speed = std::sqrt(static_cast<double>(extremes_.speed2));
-  d.mach = d.largest_speed / input_.fluid_parameters.sound_speed;
+  d.mach = d.largest_speed / sound_speed();
   d.largest_density_error = extremes_.density_error;
   d.fluid_particles = sums.particles;
   d.wall_particles = fluid_.wall_particles();
   d.lost_fluid = fluid_.lost();
   d.rebuilds = rebuilds_;
+  if (step_ > 0 && input_.time.scheme == TimeScheme::split) {
+    const sph::DeepestInWall deepest = fluid_.deepest_in_wall();
+    d.deepest_in_wall = static_cast<double>(deepest.depth) / input_.fluid_parameters.dp;
+    d.deepest_in_wall_id = deepest.id;
+  }
   if (grains_) {
     const dem::GrainSums grains = grains_->sums();
     d.grains = grains.particles;

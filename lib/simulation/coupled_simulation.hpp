@@ -24,6 +24,9 @@ class CoupledSimulation final : public Simulation {
   std::vector<BodyPose> bodies() override;
   double last_time_step() const override { return last_dt_; }
   std::string limited_by() const override { return limited_by_; }
+  StepState step_state() const override;
+  double sound_speed() const override { return fluid_.parameters().sound_speed; }
+  void set_caution(double step_factor, double sound_speed) override;
   void save(std::ostream& out) override;  // checkpoint.cpp
   void load(std::istream& in) override;
 
@@ -58,6 +61,7 @@ class CoupledSimulation final : public Simulation {
   double time_ = 0.0, last_dt_ = 0.0;
   float density_lag_ = 0.0f;          ///< s; half a step that densities are behind (split)
   std::int64_t step_ = 0, rebuilds_ = 0;
+  double step_factor_ = 1.0, acoustic_step_ = 0.0;
   const char* limited_by_ = "sound";
 };
 

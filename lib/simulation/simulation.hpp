@@ -27,6 +27,8 @@ struct Diagnostics {
   double mach = 0.0;                  ///< largest speed of water / sound speed
   double largest_density_error = 0.0; ///< |rho/rho0 - 1|
   double largest_overlap = 0.0;       ///< overlap / diameter
+  double deepest_in_wall = 0.0;       ///< water behind the true surface of a wall, over dp
+  std::uint32_t deepest_in_wall_id = 0xffffffffu;  ///< of that particle
   std::int64_t fluid_particles = 0, wall_particles = 0, grains = 0;
   std::int64_t lost_fluid = 0, lost_grains = 0;
   std::int64_t rebuilds = 0, grain_substeps = 0;
@@ -38,6 +40,14 @@ struct BodyPose {
   double rotation[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   bool present = true;
   Vec3d force;                        ///< N, of water and grains on it
+};
+
+/// What every step leaves behind at no cost. SI units.
+struct StepState {
+  double time_step = 0.0;             ///< s, of the step just taken
+  double acoustic_step = 0.0;         ///< s, what the sound speed alone would have allowed; 0 without water
+  double mach = 0.0;
+  double largest_density_error = 0.0;
 };
 
 class Simulation {
@@ -56,6 +66,11 @@ class Simulation {
   /// s, and what bound it: of the step just taken.
   virtual double last_time_step() const = 0;
   virtual std::string limited_by() const = 0;
+  virtual StepState step_state() const = 0;
+  virtual double sound_speed() const = 0;   ///< m/s
+  /// For a run in trouble: steps of water and grains are `step_factor` (0 to 1) of what they would be, and the sound
+  /// speed is `sound_speed` (m/s), pressures staying as they are. 1 and sound_speed() change nothing, to the last bit.
+  virtual void set_caution(double step_factor, double sound_speed) = 0;
   /// The complete state as bytes. A simulation made from the same input on the same kind of device and loaded with it
   /// goes on bit for bit as the saved one. load() throws Error(input) when the bytes are not such a state.
   virtual void save(std::ostream& out) = 0;

@@ -31,6 +31,12 @@ struct FluidSums {
   Index particles = 0;
 };
 
+/// The particle that is deepest behind the true surface of a wall, by the distance that the wall guard uses.
+struct DeepestInWall {
+  float depth = 0.0f;          ///< m; 0: none is
+  std::uint32_t id = no_particle;
+};
+
 /// Where a body is now, for its wall particles: r = centre + R (r_start - centre_start).
 struct WallBodyState {
   Vec3d centre_start, centre;                          ///< m, case coordinates
@@ -95,6 +101,10 @@ class FluidSystem {
 
   FluidExtremes extremes();
   FluidSums sums();
+  /// As of the last find_walls(); none where walls have no normals.
+  DeepestInWall deepest_in_wall();
+  /// m/s. Densities change so that every pressure stays as it is.
+  void set_sound_speed(double c);
   /// To the host, in the order of ids. `density_lag` (s): what a staggered scheme still owes the densities.
   FluidTable table(float density_lag) const;
   BoundaryTable wall_table() const;
@@ -102,7 +112,7 @@ class FluidSystem {
   /// The members that a checkpoint keeps (exec/state_archive.hpp).
   template <class Archive>
   void archive(Archive& a) {
-    a(coupled_, moved_, skin_, lost_, walls_move_, set_, wall_set_, fluid_fluid_, fluid_wall_, wall_fluid_);
+    a(parameters_.sound_speed, coupled_, moved_, skin_, lost_, walls_move_, set_, wall_set_, fluid_fluid_, fluid_wall_, wall_fluid_);
     a(position_, velocity_, density_, id_, mass_share_, porosity_, external_, record_, rate_);
     a(wall_position_, wall_start_, wall_velocity_, wall_body_, wall_density_, wall_friction_, wall_id_, wall_record_,
       wall_rate_, wall_bodies_, guarded_, wall_normal_, wall_depth_, wall_surface_, near_wall_);

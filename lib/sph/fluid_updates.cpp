@@ -132,6 +132,7 @@ struct SumOf {
   const float* porosity;
   double particle_mass, c2;
   Vec3d gravity;
+  bool cavitates;
   GDESP_HD FluidSums operator()(Index s) const {
     FluidSums sum;
     if (id[s] == no_particle) return sum;
@@ -145,7 +146,8 @@ struct SumOf {
     // Tait: work of compression per mass, c^2 (x^6/42 + 1/(7 x) - 1/6), x = rho/rho0.
     const double x = (1.0 + static_cast<double>(state.density[s])) / (porosity ? static_cast<double>(porosity[s]) : 1.0);
     const double x2 = x * x;
-    sum.elastic_energy = m * c2 * (x2 * x2 * x2 / 42.0 + 1.0 / (7.0 * x) - 1.0 / 6.0);
+    if (x > 1.0 || !cavitates)  // opened water bears no pressure
+      sum.elastic_energy = m * c2 * (x2 * x2 * x2 / 42.0 + 1.0 / (7.0 * x) - 1.0 / 6.0);
     return sum;
   }
 };
@@ -274,7 +276,7 @@ FluidSums FluidSystem<Exec>::sums() {
   const double mass = parameters_.reference_density * std::pow(parameters_.dp, parameters_.dimensions);
   return exec::reduce(exec_, "sph::sums", slots(), FluidSums{},
                       SumOf{domain_, state_view(), id_.data(), mass_share_.data(),
-                            coupled_ ? porosity_.data() : nullptr, mass, c * c, parameters_.gravity},
+                            coupled_ ? porosity_.data() : nullptr, mass, c * c, parameters_.gravity, parameters_.cavitates},
                       AddSums{});
 }
 

@@ -55,24 +55,26 @@ ordered_json diagnostics_record(const Diagnostics& d) {
           {"grain_elastic", d.grain_elastic}, {"grain_momentum", vector_json(d.grain_momentum)},
           {"largest_speed", d.largest_speed}, {"largest_grain_speed", d.largest_grain_speed}, {"mach", d.mach},
           {"largest_density_error", d.largest_density_error}, {"largest_overlap", d.largest_overlap},
-          {"fluid_particles", d.fluid_particles}, {"grains", d.grains}, {"lost_fluid", d.lost_fluid},
+          {"deepest_in_wall", d.deepest_in_wall}, {"fluid_particles", d.fluid_particles}, {"grains", d.grains}, {"lost_fluid", d.lost_fluid},
           {"lost_grains", d.lost_grains}, {"rebuilds", d.rebuilds}, {"grain_substeps", d.grain_substeps}};
 }
 
 DiagnosticsLog::DiagnosticsLog(const std::string& run_folder, std::int64_t last_step)
     : path_(run_folder + "/log.ndjson"), last_step_(last_step) {
   write_text_file(path_, last_step >= 0 ? kept_lines(path_, last_step) : std::string());
-  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
-  if (descriptor_ < 0) throw Error(ErrorKind::resource, path_ + ": cannot be opened: " + std::strerror(errno));
+  open_at_end();
 }
 
 DiagnosticsLog::~DiagnosticsLog() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-void DiagnosticsLog::add(const Diagnostics& d) {
-  if (d.step <= last_step_) return;
-  const std::string line = diagnostics_record(d).dump() + "\n";
+void DiagnosticsLog::open_at_end() {
+  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+  if (descriptor_ < 0) throw Error(ErrorKind::resource, path_ + ": cannot be opened: " + std::strerror(errno));
+}
+
+void DiagnosticsLog::put(const std::string& line) {
   std::size_t done = 0;
   while (done < line.size()) {
     const ssize_t n = ::write(descriptor_, line.data() + done, line.size() - done);
@@ -80,7 +82,21 @@ void DiagnosticsLog::add(const Diagnostics& d) {
     if (n < 0) throw Error(ErrorKind::resource, path_ + ": cannot be written: " + std::strerror(errno));
     done += static_cast<std::size_t>(n);
   }
+}
+
+void DiagnosticsLog::add(const Diagnostics& d) {
+  if (d.step <= last_step_) return;
+  put(diagnostics_record(d).dump() + "\n");
   last_step_ = d.step;
+}
+
+void DiagnosticsLog::go_back(std::int64_t step, const ordered_json& record) {
+  ::close(descriptor_);
+  descriptor_ = -1;
+  write_text_file(path_, kept_lines(path_, step));
+  open_at_end();
+  put(record.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n");
+  last_step_ = step;
 }
 
 void write_run_json(const std::string& run_folder, const ordered_json& content) {
@@ -102,8 +118,10 @@ void tidy_run_folder(const std::string& run_folder, bool resume) {
   remove_parts(folder);
   remove_parts(folder / "frames");
   remove_parts(folder / "checkpoints");
+  remove_parts(folder / "failure");
   if (resume) return;
   fs::remove_all(folder / "checkpoints", ignored);
+  fs::remove_all(folder / "failure", ignored);
   fs::remove(folder / "log.ndjson", ignored);
   fs::remove(folder / "run.json", ignored);
 }

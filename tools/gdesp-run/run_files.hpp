@@ -23,10 +23,14 @@ class DiagnosticsLog {
   DiagnosticsLog(const DiagnosticsLog&) = delete;
   DiagnosticsLog& operator=(const DiagnosticsLog&) = delete;
   void add(const Diagnostics& d);
+  /// Drops what is later than `step` and adds the record of what made the run go back there.
+  void go_back(std::int64_t step, const nlohmann::ordered_json& record);
   /// Everything added so far is with the operating system.
   std::int64_t last_step() const { return last_step_; }
 
  private:
+  void open_at_end();
+  void put(const std::string& line);
   std::string path_;
   int descriptor_ = -1;
   std::int64_t last_step_ = -1;

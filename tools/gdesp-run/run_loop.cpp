@@ -10,8 +10,10 @@
 #include "core/version.hpp"
 #include "exec/array.hpp"
 #include "exec/profile.hpp"
+#include "failure_files.hpp"
 #include "frame_output.hpp"
-#include "guard.hpp"
+#include "offender.hpp"
+#include "recovery.hpp"
 #include "run_files.hpp"
 #include "session.hpp"
 
@@ -21,6 +23,22 @@ namespace {
 using nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 constexpr std::int64_t steps_between_diagnostics = 100;
+// Of what the machine has, for the good states in memory.
+constexpr double good_states_share = 0.3;
+
+/// Steps between good states: a copy of everything takes as long as a few steps, more where it comes off a card. The
+/// number is fixed, not measured, so that a run that had to go back can be repeated.
+std::int64_t steps_between_good_states(const std::string& device) { return device == "cpu" ? 500 : 5000; }
+
+GuardSetup guard_setup(const Session& s) {
+  const Scene& scene = s.scene_case.scene;
+  GuardSetup setup;
+  setup.spacing_energy = norm(scene.gravity) * scene.dp;
+  setup.watches_energy = s.scene_case.bodies.empty();
+  for (const std::string& axis : scene.periodic)
+    if ((axis == "x" ? scene.gravity.x : scene.gravity.y) != 0.0) setup.watches_energy = false;  // it falls for ever
+  return setup;
+}
 
 ordered_json frame_record(const FramePaths& paths, const std::string& case_path) {
   ordered_json record{{"record", "frame"}, {"path", paths.fluid.empty() ? paths.grains : paths.fluid}};
@@ -52,6 +70,7 @@ class Run {
       : session_(std::move(session)), terminal_(cli::stdout_is_terminal()),
         output_(open_folder(session_), [this](const FramePaths& paths) { frame_written(paths); }),
         log_(session_.options.run_folder, session_.simulation->step_count() > 0 ? session_.simulation->step_count() : -1),
+        guard_(guard_setup(session_)), recovery_(good_states_share * available_memory("cpu")),
         checkpoints_(session_.options.run_folder, session_.fingerprint), description_(run_description(session_)) {
     if (resumed) {
       earlier_seconds_ = saved_ = resumed->wall_seconds;
@@ -116,19 +135,20 @@ class Run {
   }
 
   int steps() {
-    if (simulation().step_count() == 0) put_out();
+    recovery_.keep(simulation(), guard_);  // the start itself: there is nothing before it
+    while (simulation().step_count() == 0 && !put_out()) {}
     cli::Progress progress("simulating");
     const double first = simulation().time(), end = session_.times.end;
     while (simulation().time() < end) {
       const double next = session_.times.next(simulation().time());
-      while (simulation().time() < next) {
-        simulation().step(next);
+      bool good = true;
+      while (good && simulation().time() < next) {
+        good = advance(next);
         output_.check();
-        if (simulation().step_count() % steps_between_diagnostics == 0) note();
         tell(progress, first);
         if (told_to_stop() || checkpoint_is_due()) break;
       }
-      if (simulation().time() >= next) put_out();
+      if (good && simulation().time() >= next) put_out();
       const bool stop = told_to_stop() && simulation().time() < end;
       if (stop || checkpoint_is_due()) save();
       if (stop) return 130;
@@ -148,20 +168,88 @@ class Run {
     cli::detail("checkpoint at t = " + number_text(checkpoint_->time) + " s: " + checkpoint_->path);
   }
 
-  void put_out() {
-    note();
+  /// A frame; none, and false, when the state is in trouble and the run is back at a good one.
+  bool put_out() {
+    if (const auto trouble = note()) {
+      go_back(*trouble);
+      return false;
+    }
     output_.push(frame_of(session_));
+    return true;
   }
 
-  void note() {
-    latest_ = simulation().diagnostics();
-    log_.add(latest_);
+  /// One step; false when it led into trouble, and the run is back at a good state.
+  bool advance(double next) {
+    std::optional<Trouble> trouble;
     try {
-      guard_.check(latest_, [](const std::string& text) { cli::warning(text); });
-    } catch (const Error&) {
-      output_.push(frame_of(session_));  // for people to look at
-      throw;
+      simulation().step(next);
+      trouble = guard_.after_step(simulation());
+    } catch (const Error& problem) {
+      if (problem.kind() != ErrorKind::numerical) throw;
+      trouble = Guard::broken(simulation(), problem.what());
     }
+    const std::int64_t step = simulation().step_count();
+    if (!trouble && step % steps_between_diagnostics == 0) trouble = note();
+    if (trouble) {
+      go_back(*trouble);
+      return false;
+    }
+    if (step % steps_between_good_states(session_.device) == 0) recovery_.keep(simulation(), guard_);
+    return true;
+  }
+
+  std::optional<Trouble> note() {
+    latest_ = simulation().diagnostics();
+    const auto trouble = guard_.look(latest_, [](const std::string& text) { cli::warning(text); });
+    if (!trouble) log_.add(latest_);
+    return trouble;
+  }
+
+  /// Back to a good state, with more caution; or, when that has been tried enough, the end.
+  void go_back(const Trouble& trouble) {
+    std::optional<Offender> offender = find_offender(simulation(), trouble, session_.scene_case.scene.fluid.density);
+    if (!recovery_.may_try()) give_up(trouble, offender);
+    const ordered_json record = recovery_.go_back(simulation(), guard_, trouble);
+    find_place(offender);
+    log_.go_back(record["step"].get<std::int64_t>(), record);
+    description_["recoveries"].push_back(record);
+    cli::warning(trouble_text(trouble, offender) + "; going back to t = " + number_text(simulation().time(), 6) +
+                 " s, on with " + number_text(record["step_factor"].get<double>(), 3) + " of the time step and a sound speed of " +
+                 number_text(simulation().sound_speed()) + " m/s (try " + std::to_string(record["try"].get<int>()) + " of " +
+                 std::to_string(Recovery::most_tries) + ")");
+  }
+
+  /// A particle whose state is no number is where it was in the good state.
+  void find_place(std::optional<Offender>& offender) {
+    if (!offender || offender->has_place) return;
+    const std::optional<Vec3d> place = place_of(simulation(), *offender);
+    offender->has_place = place.has_value();
+    offender->place = place.value_or(Vec3d{});
+  }
+
+  std::string trouble_text(const Trouble& trouble, const std::optional<Offender>& offender) const {
+    return moment_text(trouble.step, trouble.time) + trouble.what +
+           (offender ? "; " + offender_text(*offender, session_.scene_case.offset) : "");
+  }
+
+  /// Writes the state in trouble and the last good one (also as a checkpoint), and throws.
+  [[noreturn]] void give_up(const Trouble& trouble, std::optional<Offender> offender) {
+    const std::string& run = session_.options.run_folder;
+    output_.drain();
+    ordered_json report{{"cause", trouble.what}, {"remedy", trouble.remedy}, {"step", trouble.step}, {"t", trouble.time}};
+    report["offending"] = write_failure_state(run, "offending", frame_of(session_));
+    const std::string tries = recovery_.tries_text(simulation());
+    if (recovery_.has_state()) {
+      recovery_.restore_newest(simulation());
+      find_place(offender);
+      report["good"] = write_failure_state(run, "good", frame_of(session_));
+      report["good"]["checkpoint"] = checkpoints_.write(simulation(), wall_seconds()).path;
+    }
+    const std::string message = trouble_text(trouble, offender) + tries + ". What to change: " + trouble.remedy + ". " + run +
+                                "/failure holds this state" + (recovery_.has_state() ? " and the last good one" : "");
+    report["message"] = message;
+    write_failure_report(run, report);
+    throw Error(ErrorKind::numerical, message);
   }
 
   void tell(cli::Progress& progress, double first) {
@@ -250,6 +338,7 @@ class Run {
   DiagnosticsLog log_;
   Diagnostics latest_;
   Guard guard_;
+  Recovery recovery_;
   CheckpointFiles checkpoints_;
   std::optional<Checkpoint> checkpoint_;
   ordered_json description_;
