@@ -152,10 +152,10 @@ struct Maker {
   void still() {
     const double tooth = set.get("tooth", 0.02), pitch = 0.08, width = 0.4, level = 0.1 + tooth;
     const auto bed = [=](double x) { return 2.0 * tooth * std::abs(x / pitch - std::floor(x / pitch + 0.5)); };
-    const double cosine = 1.0 / std::sqrt(1.0 + std::pow(4.0 * tooth / pitch, 2));
+    const double cosine = 1.0 / std::sqrt(1.0 + std::pow(2.0 * tooth / pitch, 2));
     const auto distance = [=](const Vec3d& r) { return std::min({(r.z - bed(r.x)) * cosine, r.x, width - r.x}); };
     solid({-4 * dp, 0, -6 * dp}, {width + 4 * dp, 0, level + 0.1}, distance);
-    water({0, 0, 0}, {width, 0, level}, [=](const Vec3d& r) { return distance(r) > 0.45 * dp; });
+    water({0, 0, 0}, {width, 0, level}, [distance, this](const Vec3d& r) { return distance(r) > 0.45 * dp; });
     domain({-5 * dp, -dp, -7 * dp}, {width + 5 * dp, dp, level + 0.5});
     c.still_water_level = level;
     end(5.0, 10);

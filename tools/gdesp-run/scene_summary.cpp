@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scene_summary.hpp"
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -228,7 +229,11 @@ double available_memory(const std::string& device) {
   const double limit = number_in_file("/sys/fs/cgroup/memory.max", ""), used = number_in_file("/sys/fs/cgroup/memory.current", "");
   const double cached = number_in_file("/sys/fs/cgroup/memory.stat", "inactive_file");
   if (limit > 0.0 && used >= 0.0) free = std::min(free, limit - used + std::max(cached, 0.0));
-  return free;
+  rlimit own{};
+  const double pages = number_in_file("/proc/self/statm", "");
+  if (::getrlimit(RLIMIT_AS, &own) == 0 && own.rlim_cur != RLIM_INFINITY && pages > 0.0)  // ulimit -v
+    free = std::min(free, static_cast<double>(own.rlim_cur) - pages * static_cast<double>(::sysconf(_SC_PAGESIZE)));
+  return std::max(free, 1.0e6);
 }
 
 void check_memory(const SceneSummary& summary, const Scene& scene, const std::string& device) {

@@ -277,25 +277,60 @@ TEST(Checksum, any_flipped_bit_and_any_exchange_shows) {
   EXPECT_NE(sum(bytes.substr(0, 992)), sound);
 }
 
-TEST(Guard, warns_once_and_ends_past_the_limit) {
+TEST(Guard, warns_once_and_knows_trouble) {
   Guard guard;
   std::vector<std::string> said;
   const auto warn = [&](const std::string& text) { said.push_back(text); };
   Diagnostics d;
   d.step = 7;
   d.fluid_particles = 1;
-  guard.check(d, warn);
+  EXPECT_FALSE(guard.look(d, warn));
   EXPECT_TRUE(said.empty());
   d.mach = 0.3;
   d.lost_grains = 2;
-  guard.check(d, warn);
-  guard.check(d, warn);
+  EXPECT_FALSE(guard.look(d, warn));
+  EXPECT_FALSE(guard.look(d, warn));
   ASSERT_EQ(said.size(), 2u);
   EXPECT_NE(said[0].find("step 7"), std::string::npos);
-  d.mach = 1.5;
-  EXPECT_THROW(guard.check(d, warn), Error);
-  d.mach = std::nan("");
-  EXPECT_THROW(guard.check(d, warn), Error);
+  const auto cause = [&](double Diagnostics::*member, double value) {
+    Diagnostics bad = d;
+    bad.*member = value;
+    const std::optional<Trouble> trouble = guard.look(bad, warn);
+    EXPECT_TRUE(trouble) << value;
+    return trouble ? trouble->cause : Trouble::Cause::all_lost;
+  };
+  EXPECT_EQ(cause(&Diagnostics::mach, 1.5), Trouble::Cause::mach);
+  EXPECT_EQ(cause(&Diagnostics::mach, std::nan("")), Trouble::Cause::mach);
+  EXPECT_EQ(cause(&Diagnostics::largest_density_error, 0.6), Trouble::Cause::density);
+  EXPECT_EQ(cause(&Diagnostics::largest_overlap, 0.4), Trouble::Cause::overlap);
+  EXPECT_EQ(cause(&Diagnostics::deepest_in_wall, 3.0), Trouble::Cause::in_wall);
+  d.fluid_particles = 0;
+  EXPECT_EQ(guard.look(d, warn)->cause, Trouble::Cause::all_lost);
+}
+
+TEST(Guard, energy_may_change_its_kind_but_not_come_from_nowhere) {
+  GuardSetup setup;
+  setup.watches_energy = true;
+  setup.spacing_energy = 0.1;
+  Guard guard(setup);
+  const auto warn = [](const std::string&) {};
+  Diagnostics d;
+  d.fluid_particles = 100;
+  d.fluid_mass = 10.0;
+  const auto look = [&](double potential, double kinetic) {
+    d.fluid_potential = potential;
+    d.fluid_kinetic = kinetic;
+    d.step += 100;
+    return guard.look(d, warn);
+  };
+  EXPECT_FALSE(look(-500.0, 0.0)) << "energies of position may have either sign";
+  EXPECT_FALSE(look(-560.0, 55.0)) << "it falls";
+  EXPECT_FALSE(look(-530.0, 20.0)) << "it climbs again";
+  const auto trouble = look(-520.0, 40.0);
+  ASSERT_TRUE(trouble) << "30 J of 61 J that there were to spend";
+  EXPECT_EQ(trouble->cause, Trouble::Cause::energy);
+  d.lost_fluid = 1;
+  EXPECT_FALSE(look(-520.0, 40.0)) << "what has left takes its own along: reckoned anew";
 }
 
 }  // namespace

@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Everything around a run that can fail: a message, the right exit code, the last good state kept, and on from there."""
+import json
+import os
+import pathlib
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli" / "gdesp-run"))
+import run_case  # takes the two programs from the command line
+
+FINE = ["--set", "time.output_interval=0.002"]
+
+
+class Reliability(run_case.RunCase):
+    def scene(self, *words, name="a.case"):
+        subprocess.run([run_case.make_case, name, *words], cwd=self.folder, check=True)
+        return name
+
+    def whole(self, *options):
+        self.run_well("a.case", "-o", "whole.run", "-q", *options)
+
+    def last_record(self, out):
+        return json.loads(out.splitlines()[-1])
+
+    def test_disk_that_fills_up_in_mid_run(self):
+        self.scene("wet")
+        room = self.folder / "room"
+        room.mkdir()
+        mounted = os.geteuid() == 0 and subprocess.run(["mount", "-t", "tmpfs", "-o", "size=1500k", "none", room], capture_output=True).returncode == 0
+        if not mounted:
+            self.skipTest("no small disk can be mounted here")
+        self.addCleanup(subprocess.run, ["umount", "-l", room])
+        run = str(room / "a.run")
+        code, out, err = self.run_tool("a.case", "-o", run, "-q", "--checkpoint-every", "0.02", *FINE)
+        self.assertEqual(code, 5, err)
+        self.assertIn("No space left", err)
+        self.assertIn(run, err)
+        self.assertEqual(self.last_record(out)["record"], "failed")
+        self.assertEqual([p for p in room.rglob("*.part-*")], [], "nothing half-written stays")
+        subprocess.run(["mount", "-o", "remount,size=100m", room], check=True)
+        self.run_well("a.case", "-o", run, "-q", "--resume", *FINE)
+        self.whole(*FINE)
+        self.assert_same_run("whole.run", run)
+
+    def test_folder_that_vanishes(self):
+        self.scene("wet")
+        process = self.start("a.case", "-o", "a.run", "-q", "--set", "time.output_interval=0.01")
+        process.stdout.readline()
+        shutil.move(self.folder / "a.run", self.folder / "elsewhere")
+        out, err = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 5, err)
+        self.assertIn("a.run", err)
+
+    def test_folder_that_may_not_be_written(self):
+        self.scene("dam")
+        (self.folder / "locked").mkdir(mode=0o555)
+        self.folder.chmod(0o755)
+        drop = (lambda: os.setuid(65534)) if os.geteuid() == 0 else None
+        try:
+            code, out, err = self.run_tool("a.case", "-o", "locked/a.run", "-q", preexec_fn=drop)
+        except PermissionError:
+            self.skipTest("the program cannot be reached by another user")
+        self.assertEqual(code, 5, err)
+        self.assertIn("locked/a.run", err)
+        self.assertIn("ermission denied", err)
+
+    def test_stopped_while_it_writes(self):
+        """Frames every few steps: most moments are inside a write."""
+        self.scene("wet")
+        options = ["--set", "time.output_interval=0.0005", "--t-end", "0.2"]
+        stopped = 0
+        for after in (0.05, 0.08, 0.11, 0.14, 0.17):
+            process = self.start("a.case", "-o", "a.run", "-q", "--resume", *options)
+            time.sleep(after)
+            process.send_signal(signal.SIGTERM)
+            _, err = process.communicate(timeout=60)
+            self.assertIn(process.returncode, (0, 130, -signal.SIGTERM), err)
+            stopped += process.returncode == 130
+            self.assertEqual(list((self.folder / "a.run").rglob("*.part-*")), [])
+        self.run_well("a.case", "-o", "a.run", "-q", "--resume", *options)
+        self.assertGreater(stopped, 0)
+        self.whole(*options)
+        self.assert_same_run("whole.run", "a.run")
+
+    def test_too_large_for_the_memory(self):
+        self.scene("settle", "dp=0.005")
+        code, out, _ = self.run_tool("a.case", "--explain")
+        self.assertEqual(code, 0)
+
+        def limit(kind, megabytes):
+            return lambda: resource.setrlimit(kind, (megabytes << 20, megabytes << 20))
+        code, out, err = self.run_tool("a.case", "-o", "a.run", "-q", preexec_fn=limit(resource.RLIMIT_AS, 600))
+        self.assertEqual(code, 5, err)
+        self.assertRegex(err, r"needs about [\d.]+ MiB of memory, cpu has [\d.]+ .iB free; resolution.dp = [\d.]+ m would fit")
+        self.assertFalse((self.folder / "a.run").exists())
+        # A limit that no estimate knows: allocation fails, with a word and the right code.
+        code, out, err = self.run_tool("a.case", "-o", "a.run", "-q", "--threads", "1", preexec_fn=limit(resource.RLIMIT_DATA, 100))
+        self.assertEqual(code, 5, err)
+        self.assertIn("out of memory", err)
+
+    def test_a_damaged_checkpoint_gives_way_to_the_one_before(self):
+        self.scene("wet")
+        process = self.start("a.case", "-o", "a.run", "-q", "--checkpoint-every", "0.02")
+        states = self.folder / "a.run/checkpoints"
+        for _ in range(2000):
+            if process.poll() is not None or (states.exists() and len(list(states.glob("*.state"))) == 2):
+                break
+            time.sleep(0.002)
+        process.kill()
+        process.communicate()
+        found = sorted(states.glob("*.state")) if states.exists() else []
+        if len(found) < 2:
+            self.skipTest("the run was over before its second checkpoint")
+        content = bytearray(found[-1].read_bytes())
+        content[len(content) // 3] ^= 4
+        found[-1].write_bytes(content)
+        _, err = self.run_well("a.case", "-o", "a.run", "-q", "--resume")
+        self.assertIn("damaged", err)
+        self.assertIn("the checkpoint before it is taken", err)
+        self.whole()
+        self.assert_same_run("whole.run", "a.run")
+
+
+if __name__ == "__main__":
+    run_case.main()
