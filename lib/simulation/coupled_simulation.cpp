@@ -36,6 +36,7 @@ template <class Exec>
 double CoupledSimulation<Exec>::choose_step(double end) {
   const sph::FluidParameters& p = fluid_.parameters();
   const double left = end - time_;
+  if (grains_) grain_dt_ = grains_->stable_time_step(input_.time.grain_step_share);  // fast grains take shorter steps
   double dt = input_.time.fixed_step;
   limited_by_ = "fixed";
   if (dt <= 0.0) {
