@@ -109,9 +109,9 @@ def axis_list():
     setting = lambda key: lambda value: [f"{key}={value:.9g}"]
     word = lambda *words: lambda value: [w.format(v=value) for w in words]
     return [
-        Axis("cfl", "Courant number", "numerics.cfl [1]", [0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.7, 1.0, 1.4, 2.0, 3.0],
+        Axis("cfl", "Courant number", "numerics.cfl [1]", [0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.7, 1.0, 1.4, 2.0, 3.0, 5.0, 8.0],
              {"accurate": 0.5, "paper": 0.2}, word("dam", "dp=0.005"), setting("numerics.cfl"), "energy that nothing gave [%]",
-             energy_rise, 5.0, small=(0.5, 3.0)),
+             energy_rise, 5.0, small=(0.5, 8.0)),
         Axis("sound-speed", "Sound speed too low for the flow", "sound speed / largest expected speed [1]",
              [1.0, 1.5, 2, 3, 5, 7, 10, 15, 20], {"accurate": 10, "paper": 10}, word("dam", "dp=0.005"),
              lambda v: [f"numerics.sound_speed={v * DAM_SPEED:.6g}"], "largest density error [%]",
@@ -136,7 +136,7 @@ def axis_list():
              presets=("accurate",)),
         Axis("pores", "Pores that close", "porosity of the grains' bed at the start [1]",
              [0.6, 0.5, 0.4, 0.35, 0.3, 0.25, 0.2, 0.15, 0.1, 0.06], None,
-             lambda v: ["wet", f"gap={math.sqrt(0.9027 / (1 - v)):.6g}"], none, "largest speed of the water / sqrt(g depth) [%]",
+             lambda v: ["pores", f"gap={math.sqrt(0.9027 / (1 - v)):.6g}"], none, "largest speed of the water / sqrt(g depth) [%]",
              lambda run: 100 * max(l["largest_speed"] for l in run.log) / math.sqrt(G * 0.2), 100.0, log_x=False),
         Axis("grain-step", "Step of the grains", "numerics.grain_time_step_share [1]", [0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.7, 1.0],
              {"accurate": 0.2, "paper": 0.2}, word("heap"), setting("numerics.grain_time_step_share"), "energy that nothing gave [%]",
@@ -151,7 +151,7 @@ def axis_list():
         Axis("size-ratio", "Largest over smallest grain", "ratio of diameters [1]", [1, 2, 3, 5, 7, 10, 15, 20], None,
              word("heap", "ratio={v}"), none, "energy that nothing gave [%]", energy_rise, 5.0, presets=("accurate",), small=(10, None)),
         Axis("shot", "A grain shot at a plate, an edge, a vertex, a thin gate", "speed [m/s]", [1, 10, 30, 100, 300, 1000], None,
-             word("shot", "speed={v}"), none, "went through (1: yes)", went_through, 0.5, log_y=False, presets=("accurate",),
+             word("shot", "speed={v}"), lambda v: ["contact.youngs_modulus=7e10"], "went through (1: yes)", went_through, 0.5, log_y=False, presets=("accurate",),
              small=(100, None), variants=tuple((f"target={k}",) for k in range(4))),
         Axis("resting", "Grains at rest on a slope (friction 0.5: 26.6 degrees)", "angle of the slope [degree]",
              [0, 5, 10, 15, 20, 24, 26, 27, 30, 35], None, word("slope", "angle={v}"), none, "speed after 2 s [mm/s]", creep, 0.1,

@@ -6,7 +6,8 @@
 //   still   water 0.1 m deep over a sawtooth bed; tooth (height)
 //   patch   square of water that rotates, no gravity; spin (rad/s)
 //   sheet   layer of water on a plane slope; layers, angle (degrees)
-//   wet     block of grains in still water; density, diameter, gap (spacing over diameter)
+//   wet     block of grains in still water, three dimensions; density, diameter, real_diameter
+//   pores   a bed of discs under water; gap (spacing over diameter)
 //   settle  one grain in a deep tank, three dimensions; diameter, density
 //   heap    block of grains falls into a dry tank; diameter, ratio (largest over smallest), drop
 //   slope   a row of grains on a plane; angle (degrees)
@@ -189,30 +190,52 @@ struct Maker {
     end(0.6, 6);
   }
 
+  /// A tank in three dimensions, open at the top.
+  void deep_tank(const Vec3d& size) {
+    c.scene.dimensions = 3;
+    const auto distance = [size](const Vec3d& r) { return std::min({r.x, size.x - r.x, r.y, size.y - r.y, r.z}); };
+    solid({-4 * dp, -4 * dp, -4 * dp}, {size.x + 4 * dp, size.y + 4 * dp, size.z}, distance);
+    const double x = size.x, y = size.y, z = size.z;
+    quad({0, 0, 0}, {x, 0, 0}, {x, y, 0}, {0, y, 0});
+    quad({0, 0, 0}, {0, y, 0}, {0, y, z}, {0, 0, z});
+    quad({x, 0, 0}, {x, 0, z}, {x, y, z}, {x, y, 0});
+    quad({0, 0, 0}, {0, 0, z}, {x, 0, z}, {x, 0, 0});
+    quad({0, y, 0}, {x, y, 0}, {x, y, z}, {0, y, z});
+    domain({-5 * dp, -5 * dp, -5 * dp}, {x + 5 * dp, y + 5 * dp, z + 40 * dp});
+  }
+
   void wet() {
-    const double d = set.get("diameter", 0.01), gap = set.get("gap", 1.15), density = set.get("density", 2650);
+    const double d = set.get("diameter", 0.01), step = 1.15 * d, density = set.get("density", 2650);
+    deep_tank({0.1, 0.06, 0.16});
+    water({0, 0, 0}, {0.1, 0.06, 0.12});
+    slide(d);
+    for (int k = 0; k < static_cast<int>(0.04 / step); ++k)
+      for (int j = 0; j < static_cast<int>(0.05 / step); ++j)
+        for (int i = 0; i < static_cast<int>(0.07 / step); ++i)
+          grain({0.016 + (i + 0.3 * (k % 2)) * step, 0.011 + (j + 0.2 * (k % 2)) * step, 0.05 + k * step}, d, density);
+    c.scene.slides.back().real_diameter = set.get("real_diameter", 0.0);
+    c.still_water_level = 0.12;
+    end(0.3, 3);
+  }
+
+  void pores() {
+    const double d = 0.01, step = set.get("gap", 1.15) * d;
     tank(0.2, 0.3);
     water({0, 0, 0}, {0.2, 0, 0.2});
     slide(d);
-    const double step = gap * d;
-    const int across = std::max(1, static_cast<int>(0.08 / step)), high = std::max(1, static_cast<int>(0.06 / step));
+    const int across = static_cast<int>((0.2 - 0.5 * step) / step), high = static_cast<int>(0.06 / step);
     for (int k = 0; k < high; ++k)
-      for (int i = 0; i < across; ++i) grain({0.06 + (i + 0.5 + 0.25 * (k % 2)) * step, 0, 0.08 + (k + 0.5) * step * 0.87}, d, density);
-    c.scene.slides.back().real_diameter = set.get("real_diameter", 0.0);
+      for (int i = 0; i < across; ++i) grain({(i + 0.52 + 0.5 * (k % 2)) * step, 0, 0.5 * d + k * step * 0.867}, d, 2650);
     c.still_water_level = 0.2;
-    end(0.4, 4);
+    end(0.3, 3);
   }
 
   void settle() {
     const double d = set.get("diameter", 0.01), width = 0.16, depth = 0.24;
-    c.scene.dimensions = 3;
-    const auto distance = [=](const Vec3d& r) { return std::min({r.x, width - r.x, r.y, width - r.y, r.z}); };
-    solid({-4 * dp, -4 * dp, -4 * dp}, {width + 4 * dp, width + 4 * dp, depth + 4 * dp}, distance);
+    deep_tank({width, width, depth + 4 * dp});
     water({0, 0, 0}, {width, width, depth});
     slide(d);
     grain({0.5 * width, 0.5 * width, depth - 0.06}, d, set.get("density", 2650));
-    quad({0, 0, 0}, {width, 0, 0}, {width, width, 0}, {0, width, 0});
-    domain({-5 * dp, -5 * dp, -5 * dp}, {width + 5 * dp, width + 5 * dp, depth + 20 * dp});
     c.still_water_level = depth;
     end(0.2, 4);
   }
@@ -280,10 +303,10 @@ struct Maker {
 
 int main(int argc, char** argv) {
   const std::map<std::string, void (Maker::*)()> kinds{
-      {"dam", &Maker::dam}, {"still", &Maker::still}, {"patch", &Maker::patch}, {"sheet", &Maker::sheet}, {"wet", &Maker::wet},
+      {"dam", &Maker::dam}, {"still", &Maker::still}, {"patch", &Maker::patch}, {"sheet", &Maker::sheet}, {"wet", &Maker::wet}, {"pores", &Maker::pores},
       {"settle", &Maker::settle}, {"heap", &Maker::heap}, {"slope", &Maker::slope}, {"shot", &Maker::shot}};
   const auto kind = argc > 2 ? kinds.find(argv[2]) : kinds.end();
-  if (kind == kinds.end()) return std::fprintf(stderr, "atlas_case CASE dam|still|patch|sheet|wet|settle|heap|slope|shot [name=value...]\n"), 2;
+  if (kind == kinds.end()) return std::fprintf(stderr, "atlas_case CASE dam|still|patch|sheet|wet|pores|settle|heap|slope|shot [name=value...]\n"), 2;
   Settings settings;
   for (int k = 3; k < argc; ++k) {
     const std::string text = argv[k];

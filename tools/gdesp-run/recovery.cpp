@@ -7,6 +7,7 @@
 #include <ostream>
 #include <streambuf>
 
+#include "exec/profile.hpp"
 #include "scene_summary.hpp"
 
 namespace gdesp::tool {
@@ -52,6 +53,7 @@ void Recovery::keep(Simulation& simulation, const Guard& guard) {
     simulation.set_caution(step_factor_, simulation.sound_speed());
   }
   if (memory_ <= 0.0) return;
+  const exec::ProfileScope scope("guard::keep_good_state");
   Kept state{{}, guard, simulation.step_count(), simulation.time()};
   if (kept_.size() == most_states) {
     state.bytes = std::move(kept_.front().bytes);

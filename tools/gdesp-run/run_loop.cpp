@@ -199,6 +199,7 @@ class Run {
   }
 
   std::optional<Trouble> note() {
+    const exec::ProfileScope scope("guard::diagnostics");
     latest_ = simulation().diagnostics();
     const auto trouble = guard_.look(latest_, [](const std::string& text) { cli::warning(text); });
     if (!trouble) log_.add(latest_);
