@@ -29,10 +29,10 @@ class Reliability(run_case.RunCase):
         return json.loads(out.splitlines()[-1])
 
     def test_disk_that_fills_up_in_mid_run(self):
-        self.scene("wet")
+        self.scene("dam", "dp=0.005")
         room = self.folder / "room"
         room.mkdir()
-        mounted = os.geteuid() == 0 and subprocess.run(["mount", "-t", "tmpfs", "-o", "size=1500k", "none", room], capture_output=True).returncode == 0
+        mounted = os.geteuid() == 0 and subprocess.run(["mount", "-t", "tmpfs", "-o", "size=800k", "none", room], capture_output=True).returncode == 0
         if not mounted:
             self.skipTest("no small disk can be mounted here")
         self.addCleanup(subprocess.run, ["umount", "-l", room])
@@ -49,7 +49,7 @@ class Reliability(run_case.RunCase):
         self.assert_same_run("whole.run", run)
 
     def test_folder_that_vanishes(self):
-        self.scene("wet")
+        self.scene("dam", "dp=0.005")
         process = self.start("a.case", "-o", "a.run", "-q", "--set", "time.output_interval=0.01")
         process.stdout.readline()
         shutil.move(self.folder / "a.run", self.folder / "elsewhere")
@@ -72,8 +72,8 @@ class Reliability(run_case.RunCase):
 
     def test_stopped_while_it_writes(self):
         """Frames every few steps: most moments are inside a write."""
-        self.scene("wet")
-        options = ["--set", "time.output_interval=0.0005", "--t-end", "0.2"]
+        self.scene("dam", "dp=0.005")
+        options = ["--set", "time.output_interval=0.001"]
         stopped = 0
         for after in (0.05, 0.08, 0.11, 0.14, 0.17):
             process = self.start("a.case", "-o", "a.run", "-q", "--resume", *options)
@@ -89,23 +89,23 @@ class Reliability(run_case.RunCase):
         self.assert_same_run("whole.run", "a.run")
 
     def test_too_large_for_the_memory(self):
-        self.scene("settle", "dp=0.005")
+        self.scene("settle", "dp=0.004")
         code, out, _ = self.run_tool("a.case", "--explain")
         self.assertEqual(code, 0)
 
         def limit(kind, megabytes):
             return lambda: resource.setrlimit(kind, (megabytes << 20, megabytes << 20))
-        code, out, err = self.run_tool("a.case", "-o", "a.run", "-q", preexec_fn=limit(resource.RLIMIT_AS, 600))
+        code, out, err = self.run_tool("a.case", "-o", "a.run", "-q", preexec_fn=limit(resource.RLIMIT_AS, 150))
         self.assertEqual(code, 5, err)
         self.assertRegex(err, r"needs about [\d.]+ MiB of memory, cpu has [\d.]+ .iB free; resolution.dp = [\d.]+ m would fit")
         self.assertFalse((self.folder / "a.run").exists())
         # A limit that no estimate knows: allocation fails, with a word and the right code.
-        code, out, err = self.run_tool("a.case", "-o", "a.run", "-q", "--threads", "1", preexec_fn=limit(resource.RLIMIT_DATA, 100))
+        code, out, err = self.run_tool("a.case", "-o", "a.run", "-q", "--threads", "1", preexec_fn=limit(resource.RLIMIT_DATA, 40))
         self.assertEqual(code, 5, err)
         self.assertIn("out of memory", err)
 
     def test_a_damaged_checkpoint_gives_way_to_the_one_before(self):
-        self.scene("wet")
+        self.scene("dam", "dp=0.005")
         process = self.start("a.case", "-o", "a.run", "-q", "--checkpoint-every", "0.02")
         states = self.folder / "a.run/checkpoints"
         for _ in range(2000):

@@ -19,6 +19,8 @@ const char* const overlap_remedy = "the grains are too soft for their load (cont
 const char* const wall_remedy = "the wall has a hole or is thinner than resolution.dp resolves, or the time step is too long "
                                 "(numerics.cfl)";
 
+constexpr std::int64_t least_steps = 50;   // between two looks at the energy
+
 std::string percent(double share) { return number_text(100.0 * share, 3) + " %"; }
 
 std::string mach_words(double speed, double mach, double limit) {
@@ -46,6 +48,7 @@ std::string moment_text(std::int64_t step, double time) {
 }
 
 double EnergyWatch::rise(const Diagnostics& d) {
+  if (lost_ >= 0 && d.step - step_ < least_steps) return rise_;
   const double potential = d.fluid_potential + d.grain_potential;
   const double sum = potential + d.fluid_kinetic + d.fluid_elastic + d.grain_kinetic + d.grain_elastic;
   const std::int64_t lost = d.lost_fluid + d.lost_grains;
@@ -54,14 +57,17 @@ double EnergyWatch::rise(const Diagnostics& d) {
     highest_potential_ = potential;
   }
   if (lost != lost_) {  // what left took its energy along: begin anew
-    lost_ = lost;
-    least_ = sum;
+    least_ = before_ = sum;
     highest_potential_ = potential + freed_;
   }
-  least_ = std::min(least_, sum);
+  least_ = std::min(least_, std::max(sum, before_));
   freed_ = std::max(freed_, highest_potential_ - potential);
   const double to_spend = start_ + freed_ + (d.fluid_mass + d.grain_mass) * spacing_energy_;
-  return to_spend > 0.0 ? (sum - least_) / to_spend : 0.0;
+  rise_ = to_spend > 0.0 ? (std::min(sum, before_) - least_) / to_spend : 0.0;
+  before_ = sum;
+  lost_ = lost;
+  step_ = d.step;
+  return rise_;
 }
 
 std::string Guard::mach_text(const Diagnostics& d) {

@@ -2,11 +2,12 @@
 #include "recovery.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <istream>
+#include <new>
 #include <ostream>
 #include <streambuf>
 
+#include "cli/cli.hpp"
 #include "exec/profile.hpp"
 #include "scene_summary.hpp"
 
@@ -60,13 +61,24 @@ void Recovery::keep(Simulation& simulation, const Guard& guard) {
     kept_.pop_front();
     state.bytes.clear();
   }
-  MemoryOutput buffer(state.bytes);
-  std::ostream stream(&buffer);
-  simulation.save(stream);
+  try {
+    MemoryOutput buffer(state.bytes);
+    std::ostream stream(&buffer);
+    stream.exceptions(std::ios::badbit);  // what the vector throws comes through
+    simulation.save(stream);
+  } catch (const std::bad_alloc&) {
+    kept_.clear();
+    memory_ = 0.0;
+    cli::warning("too little memory to keep good states: trouble will end the run instead of being gone back from");
+    return;
+  }
   const auto size = static_cast<double>(state.bytes.capacity());
   kept_.push_back(std::move(state));
   while (!kept_.empty() && size * static_cast<double>(kept_.size()) > memory_) kept_.pop_front();
-  if (kept_.empty()) memory_ = 0.0;  // not even one
+  if (kept_.empty()) {
+    memory_ = 0.0;
+    cli::warning("a good state takes " + memory_text(size) + ", more than may be used for it: trouble will end the run instead of being gone back from");
+  }
 }
 
 void Recovery::load(const Kept& kept, Simulation& simulation) {
