@@ -95,12 +95,12 @@ class Reliability(run_case.RunCase):
 
         def limit(kind, megabytes):
             return lambda: resource.setrlimit(kind, (megabytes << 20, megabytes << 20))
-        code, out, err = self.run_tool("a.case", "-o", "a.run", "-q", preexec_fn=limit(resource.RLIMIT_AS, 150))
+        code, out, err = self.run_tool("a.case", "-o", "a.run", "-q", "--t-end", "0.002", preexec_fn=limit(resource.RLIMIT_AS, 100))
         self.assertEqual(code, 5, err)
         self.assertRegex(err, r"needs about [\d.]+ MiB of memory, cpu has [\d.]+ .iB free; resolution.dp = [\d.]+ m would fit")
         self.assertFalse((self.folder / "a.run").exists())
         # A limit that no estimate knows: allocation fails, with a word and the right code.
-        code, out, err = self.run_tool("a.case", "-o", "a.run", "-q", "--threads", "1", preexec_fn=limit(resource.RLIMIT_DATA, 40))
+        code, out, err = self.run_tool("a.case", "-o", "a.run", "-q", "--threads", "1", "--t-end", "0.002", preexec_fn=limit(resource.RLIMIT_DATA, 40))
         self.assertEqual(code, 5, err)
         self.assertIn("out of memory", err)
 

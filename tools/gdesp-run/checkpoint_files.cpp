@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <streambuf>
+#include <type_traits>
 #include <vector>
 
 #include "cli/cli.hpp"
@@ -18,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr std::size_t block_size = std::size_t{1} << 20, kept = 2;
-constexpr char file_mark[8] = {'G', 'D', 'E', 'S', 'P', 'C', 'K', '1'};
+constexpr char file_mark[8] = {'G', 'D', 'E', 'S', 'P', 'C', 'K', '2'};
 
 struct Header {
   char mark[8];
@@ -111,13 +112,13 @@ void Checksum::add(const char* bytes, std::size_t count) {
 CheckpointFiles::CheckpointFiles(const std::string& run_folder, std::uint64_t fingerprint)
     : folder_(run_folder + "/checkpoints"), fingerprint_(fingerprint) {}
 
-Checkpoint CheckpointFiles::write(Simulation& simulation, double wall_seconds) {
+Checkpoint CheckpointFiles::write(Simulation& simulation, const Watch& watch, double wall_seconds) {
   std::error_code trouble;
   fs::create_directories(folder_, trouble);
   if (trouble) throw Error(ErrorKind::resource, folder_ + ": cannot be made: " + trouble.message());
   char name[48];
   std::snprintf(name, sizeof name, "/step_%012lld.state", static_cast<long long>(simulation.step_count()));
-  const Checkpoint checkpoint{folder_ + name, simulation.step_count(), simulation.time(), wall_seconds};
+  const Checkpoint checkpoint{folder_ + name, simulation.step_count(), simulation.time(), wall_seconds, watch};
   Header header{{}, fingerprint_, checkpoint.step, checkpoint.time, wall_seconds};
   std::memcpy(header.mark, file_mark, sizeof file_mark);
   SafeFile file(checkpoint.path);
@@ -126,6 +127,7 @@ Checkpoint CheckpointFiles::write(Simulation& simulation, double wall_seconds) {
   stream.exceptions(std::ios::badbit);  // what SafeFile throws comes through
   stream.write(reinterpret_cast<const char*>(&header), sizeof header);
   simulation.save(stream);
+  stream.write(reinterpret_cast<const char*>(&watch), sizeof watch);
   const Trailer trailer = output.finish();
   file.write(&trailer, sizeof trailer);
   file.commit();
@@ -151,7 +153,10 @@ std::optional<Checkpoint> CheckpointFiles::load_newest(Simulation& simulation) {
       throw Error(ErrorKind::input, path.string() + ": was written for another case, or with other parameters (--set, "
                                                     "--preset); give those of the interrupted run, or --force to start anew");
     simulation.load(file);
-    return Checkpoint{path.string(), header.step, header.time, header.wall_seconds};
+    Watch watch;
+    static_assert(std::is_trivially_copyable_v<Watch>);
+    file.read(reinterpret_cast<char*>(&watch), sizeof watch);
+    return Checkpoint{path.string(), header.step, header.time, header.wall_seconds, watch};
   }
   return std::nullopt;
 }

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Checkpoints in RUN/checkpoints: step_000001234.state, each written aside and renamed, the newest two kept. A file is
-// a header, the state of the simulation, and a trailer with size and checksum, by which a torn or damaged one is known.
+// a header, the state of the simulation, what the guard knows, and a trailer with size and checksum, by which a torn or damaged one is known.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <string>
 
+#include "recovery.hpp"
 #include "simulation/simulation.hpp"
 
 namespace gdesp::tool {
@@ -16,6 +17,7 @@ struct Checkpoint {
   std::int64_t step = 0;
   double time = 0.0;           ///< s
   double wall_seconds = 0.0;   ///< s, spent up to here
+  Watch watch;
 };
 
 class CheckpointFiles {
@@ -24,7 +26,7 @@ class CheckpointFiles {
   CheckpointFiles(const std::string& run_folder, std::uint64_t fingerprint);
 
   /// Writes the state now and removes all but the newest two. Throws Error(resource).
-  Checkpoint write(Simulation& simulation, double wall_seconds);
+  Checkpoint write(Simulation& simulation, const Watch& watch, double wall_seconds);
 
   /// Loads the newest sound checkpoint into `simulation`; warns of damaged ones and takes the one before. nullopt when
   /// there is none. Throws Error(input) when the newest sound one belongs to another case or other parameters.

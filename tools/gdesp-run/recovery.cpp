@@ -47,12 +47,14 @@ bool outran_its_sound(Trouble::Cause cause) { return cause == Trouble::Cause::ma
 
 }  // namespace
 
-void Recovery::keep(Simulation& simulation, const Guard& guard) {
+void Recovery::relax(Simulation& simulation) {
   if (tries_ > 0 && simulation.time() >= clear_after_) tries_ = 0;
-  if (tries_ == 0 && step_factor_ < 1.0) {
-    step_factor_ = std::min(1.0, 2.0 * step_factor_);
-    simulation.set_caution(step_factor_, simulation.sound_speed());
-  }
+  if (tries_ > 0 || step_factor_ == 1.0) return;
+  step_factor_ = std::min(1.0, 2.0 * step_factor_);
+  simulation.set_caution(step_factor_, simulation.sound_speed());
+}
+
+void Recovery::keep(Simulation& simulation, const Guard& guard) {
   if (memory_ <= 0.0) return;
   const exec::ProfileScope scope("guard::keep_good_state");
   Kept state{{}, guard, simulation.step_count(), simulation.time()};
@@ -79,6 +81,13 @@ void Recovery::keep(Simulation& simulation, const Guard& guard) {
     memory_ = 0.0;
     cli::warning("a good state takes " + memory_text(size) + ", more than may be used for it: trouble will end the run instead of being gone back from");
   }
+}
+
+void Recovery::take_over(const Watch& watch) {
+  tries_ = watch.tries;
+  recoveries_ = watch.recoveries;
+  step_factor_ = watch.step_factor;
+  clear_after_ = watch.clear_after;
 }
 
 void Recovery::load(const Kept& kept, Simulation& simulation) {

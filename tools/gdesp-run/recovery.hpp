@@ -11,6 +11,15 @@
 
 namespace gdesp::tool {
 
+/// What a checkpoint keeps of the guard and the recovery, so that a resumed run judges as the unbroken one. (The good states
+/// are not in it: docs/stability.md.)
+struct Watch {
+  Guard guard;
+  int tries = 0, recoveries = 0;
+  double step_factor = 1.0;
+  double clear_after = 0.0;        ///< s: past this time the trouble lies behind
+};
+
 /// Keeps the last two states that the guard had nothing against, whole, as a checkpoint holds them. After trouble a
 /// simulation goes back to one of them and on with a smaller step (half, a quarter, an eighth) and, where the water
 /// outran its sound, with a higher sound speed. When it has come through, the step grows again.
@@ -23,7 +32,9 @@ class Recovery {
   /// `memory`: bytes that the states may take; 0: none are kept.
   explicit Recovery(double memory) : memory_(memory) {}
 
-  /// The state now is good. Also lets the step grow again, once what went wrong lies behind.
+  /// Lets the step grow again, once what went wrong lies behind.
+  void relax(Simulation& simulation);
+  /// The state now is good.
   void keep(Simulation& simulation, const Guard& guard);
   bool has_state() const { return !kept_.empty(); }
   bool may_try() const { return has_state() && tries_ < most_tries && recoveries_ < most_recoveries; }
@@ -32,7 +43,8 @@ class Recovery {
   nlohmann::ordered_json go_back(Simulation& simulation, Guard& guard, const Trouble& trouble);
   /// Back to the newest good state as it was, for the files of a run that has failed.
   void restore_newest(Simulation& simulation);
-  int recoveries() const { return recoveries_; }
+  Watch watch(const Guard& guard) const { return {guard, tries_, recoveries_, step_factor_, clear_after_}; }
+  void take_over(const Watch& watch);
   /// "3 tries from t = 0.2 s on, with steps down to 1/8 and a sound speed up to 67.5 m/s, ended alike"
   std::string tries_text(const Simulation& simulation) const;
 

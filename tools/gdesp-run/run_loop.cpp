@@ -74,6 +74,8 @@ class Run {
         checkpoints_(session_.options.run_folder, session_.fingerprint), description_(run_description(session_)) {
     if (resumed) {
       earlier_seconds_ = saved_ = resumed->wall_seconds;
+      guard_ = resumed->watch.guard;
+      recovery_.take_over(resumed->watch);
       description_["resumed_at_step"] = resumed->step;
       tell_earlier_frames();
     }
@@ -163,7 +165,7 @@ class Run {
   /// All frames up to now are on disk before the checkpoint that follows them.
   void save() {
     output_.drain();
-    checkpoint_ = checkpoints_.write(simulation(), wall_seconds());
+    checkpoint_ = checkpoints_.write(simulation(), recovery_.watch(guard_), wall_seconds());
     saved_ = wall_seconds();
     cli::detail("checkpoint at t = " + number_text(checkpoint_->time) + " s: " + checkpoint_->path);
   }
@@ -194,7 +196,10 @@ class Run {
       go_back(*trouble);
       return false;
     }
-    if (step % steps_between_good_states(session_.device) == 0) recovery_.keep(simulation(), guard_);
+    if (step % steps_between_good_states(session_.device) == 0) {
+      recovery_.relax(simulation());
+      recovery_.keep(simulation(), guard_);
+    }
     return true;
   }
 
@@ -244,7 +249,7 @@ class Run {
       recovery_.restore_newest(simulation());
       find_place(offender);
       report["good"] = write_failure_state(run, "good", frame_of(session_));
-      report["good"]["checkpoint"] = checkpoints_.write(simulation(), wall_seconds()).path;
+      report["good"]["checkpoint"] = checkpoints_.write(simulation(), recovery_.watch(guard_), wall_seconds()).path;
     }
     const std::string message = trouble_text(trouble, offender) + tries + ". What to change: " + trouble.remedy + ". " + run +
                                 "/failure holds this state" + (recovery_.has_state() ? " and the last good one" : "");
