@@ -54,7 +54,7 @@ class Guard {
   static constexpr double density_warning = 0.1, density_limit = 0.5;    ///< of the reference density
   static constexpr double overlap_warning = 0.01, overlap_limit = 0.3;   ///< of a diameter
   static constexpr double in_wall_warning = 1.0, in_wall_limit = 2.0;    ///< of a particle spacing
-  static constexpr double energy_warning = 0.05, energy_limit = 0.25;    ///< of what there was to spend
+  static constexpr double energy_warning = 0.05, energy_limit = 0.5;    ///< of what there was to spend
   static constexpr double step_limit = 1.0e-3;                           ///< of the acoustic step
 
   explicit Guard(const GuardSetup& setup = {}) : setup_(setup), energy_(setup.spacing_energy) {}

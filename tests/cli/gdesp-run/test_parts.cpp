@@ -326,9 +326,9 @@ TEST(Guard, energy_may_change_its_kind_but_not_come_from_nowhere) {
   EXPECT_FALSE(look(-500.0, 0.0)) << "energies of position may have either sign";
   EXPECT_FALSE(look(-560.0, 55.0)) << "it falls";
   EXPECT_FALSE(look(-530.0, 20.0)) << "it climbs again";
-  EXPECT_FALSE(look(-520.0, 40.0)) << "once may be a rebound";
-  const auto trouble = look(-520.0, 40.0);
-  ASSERT_TRUE(trouble) << "25 J of 61 J that there were to spend";
+  EXPECT_FALSE(look(-520.0, 60.0)) << "once may be a rebound";
+  const auto trouble = look(-520.0, 60.0);
+  ASSERT_TRUE(trouble) << "45 J of 61 J that there were to spend";
   EXPECT_EQ(trouble->cause, Trouble::Cause::energy);
   d.lost_fluid = 1;
   EXPECT_FALSE(look(-520.0, 40.0)) << "what has left takes its own along: reckoned anew";
