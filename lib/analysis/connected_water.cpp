@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/connected_water.hpp"
 
+#include <algorithm>
 #include <atomic>
 
 namespace gdesp::analysis {
@@ -40,13 +41,23 @@ void for_each_neighbour(const ColumnGrid& grid, std::size_t s, double link, Visi
   });
 }
 
-std::vector<std::uint8_t> find_cores(const ColumnGrid& grid, double link) {
+std::vector<std::uint8_t> find_torn(const ColumnGrid& grid, double limit, std::span<const float> relative_density,
+                                    std::size_t& count) {
+  std::vector<std::uint8_t> torn(grid.size(), 0);
+  if (relative_density.size() != grid.size()) return torn;
+  for (std::size_t s = 0; s < grid.size(); ++s) torn[s] = relative_density[grid.index(s)] < limit;
+  count = static_cast<std::size_t>(std::count(torn.begin(), torn.end(), 1));
+  return torn;
+}
+
+std::vector<std::uint8_t> find_cores(const ColumnGrid& grid, double link, const std::vector<std::uint8_t>& torn) {
   const int needed = grid.dimensions() == 2 ? 1 : 3;
   std::vector<std::uint8_t> core(grid.size(), 0);
 #pragma omp parallel for schedule(dynamic, 1024)
   for (std::size_t s = 0; s < grid.size(); ++s) {
+    if (torn[s]) continue;
     int count = 0;
-    for_each_neighbour(grid, s, link, [&](std::size_t) { ++count; });
+    for_each_neighbour(grid, s, link, [&](std::size_t t) { count += !torn[t]; });
     core[s] = count >= needed;
   }
   return core;
@@ -54,10 +65,13 @@ std::vector<std::uint8_t> find_cores(const ColumnGrid& grid, double link) {
 
 }  // namespace
 
-ConnectedWater find_connected_water(const ColumnGrid& grid, double dp, const ConnectivityRule& rule) {
+ConnectedWater find_connected_water(const ColumnGrid& grid, double dp, const ConnectivityRule& rule,
+                                    std::span<const float> relative_density) {
   const std::size_t n = grid.size();
   const double link = rule.link * dp;
-  const std::vector<std::uint8_t> core = find_cores(grid, link);
+  ConnectedWater result;
+  const std::vector<std::uint8_t> torn = find_torn(grid, rule.torn_below, relative_density, result.torn);
+  const std::vector<std::uint8_t> core = find_cores(grid, link, torn);
   std::vector<Label> parent(n);
   for (std::size_t s = 0; s < n; ++s) parent[s] = static_cast<Label>(s);
 #pragma omp parallel for schedule(dynamic, 1024)
@@ -72,7 +86,7 @@ ConnectedWater find_connected_water(const ColumnGrid& grid, double dp, const Con
 #pragma omp parallel for schedule(dynamic, 1024)
   for (std::size_t s = 0; s < n; ++s) {
     Label best = static_cast<Label>(s);
-    if (!core[s]) {
+    if (!core[s] && !torn[s]) {
       Label lowest = static_cast<Label>(n);
       for_each_neighbour(grid, s, link, [&](std::size_t t) {
         if (core[t] && t < lowest) lowest = static_cast<Label>(t);
@@ -84,7 +98,6 @@ ConnectedWater find_connected_water(const ColumnGrid& grid, double dp, const Con
   std::vector<std::uint32_t> members(n, 0);
   for (const Label l : label) ++members[l];
   const double least = rule.main_share * static_cast<double>(n);
-  ConnectedWater result;
   result.main.assign(n, 0);
   for (std::size_t s = 0; s < n; ++s) {
     if (members[s] >= least && members[s] > 1) ++result.bodies;

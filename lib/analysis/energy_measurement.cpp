@@ -31,7 +31,7 @@ void add_water(const FluidTable& w, const RunInfo& info, EnergyState& e) {
   for (std::size_t i = 0; i < w.position.size(); ++i) {
     height += w.position[i].z;
     if (moving) kinetic += 0.5 * square(w.velocity[i]);
-    if (!compressed) continue;
+    if (!compressed || w.pressure[i] == 0.0f) continue;  // torn water, whose pressure the solver holds at 0, stores nothing
     const double r = w.density[i] / rho0, x = std::pow(r, 7) - 1.0;
     px += w.pressure[i] * x;
     xx += x * x;
@@ -108,7 +108,7 @@ Figure EnergyMeasurement::figure() const {
   }
   const double exponent = largest > 0.0 ? 3.0 * std::floor(std::log10(largest) / 3.0) : 0.0;
   Panel panel;
-  panel.title = "Energy budget, " + info_.name;
+  panel.title = "Energy budget, " + plain_text(info_.name);
   panel.note = "potential energies counted from the first frame; lost: the total missing since then";
   panel.x_label = "time t (s)";
   panel.y_label = "energy (10^{" + format_number(exponent) + "} " + (info_.dimensions == 2 ? "J/m)" : "J)");

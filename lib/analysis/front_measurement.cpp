@@ -74,7 +74,7 @@ void FrontMeasurement::add(FrameView& view, const RowSink& emit) {
 
 Figure FrontMeasurement::figure() const {
   Panel panel;
-  panel.title = "Leading edge, " + info_.name;
+  panel.title = "Leading edge, " + plain_text(info_.name);
   panel.x_label = "dimensionless time t* = t (g/L)^{1/2}";
   panel.y_label = "dimensionless front x* = (x - x_0)/L";
   panel.note = "L = " + format_number(scale_) + " m; front: " + format_number(100.0 * options_.fraction) +

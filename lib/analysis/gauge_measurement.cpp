@@ -97,10 +97,10 @@ void GaugeMeasurement::finish(const RowSink& emit) {
 Figure GaugeMeasurement::figure() const {
   Figure figure;
   Panel level, pressure;
-  level.title = "Water level, " + info_.name;
+  level.title = "Water level, " + plain_text(info_.name);
   level.x_label = pressure.x_label = "time t (s)";
   level.y_label = "elevation (m)";
-  pressure.title = "Pressure, " + info_.name;
+  pressure.title = "Pressure, " + plain_text(info_.name);
   pressure.y_label = "pressure (kPa)";
   for (std::size_t k = 0; k < gauge_.size(); ++k) {
     if (any_number(level_[k])) level.series.push_back({plain_text(gauge_[k].name), time_, level_[k], {}, {}, MarkStyle::line, {}, static_cast<int>(k)});

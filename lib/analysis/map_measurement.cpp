@@ -15,6 +15,14 @@ namespace {
 constexpr float none = std::numeric_limits<float>::quiet_NaN();
 constexpr std::size_t most_cells = 100u << 20;
 
+// Lines around the cells that have a value; those of single cells (spray) are left out.
+auto edge_of(Raster raster) {
+  for (float& v : raster.value) v = std::isfinite(v) ? 1.0f : 0.0f;
+  auto lines = contour_lines(raster, 0.5);
+  std::erase_if(lines, [](const auto& line) { return line.size() < 8; });
+  return lines;
+}
+
 Raster empty_like(const Raster& r) {
   Raster copy = r;
   std::fill(copy.value.begin(), copy.value.end(), none);
@@ -93,11 +101,8 @@ void MapMeasurement::finish(const RowSink& emit) {
 }
 
 std::vector<GroundLine> MapMeasurement::run_up_lines() const {
-  Raster wet = level_;
-  for (float& v : wet.value) v = std::isfinite(v) ? 1.0f : 0.0f;
   std::vector<GroundLine> lines;
-  for (const auto& line : contour_lines(wet, 0.5)) {
-    if (line.size() < 8) continue;  // single cells of spray
+  for (const auto& line : edge_of(level_)) {
     GroundLine on_ground;
     for (const Point2& p : line) {
       const int ix = std::clamp(static_cast<int>(std::lround((p.x - ground_.x0) / ground_.dx)), 0, ground_.nx - 1);
@@ -133,12 +138,15 @@ Figure MapMeasurement::figure() const {
   const double missing = std::numeric_limits<double>::quiet_NaN();
   Series ground, outline;  // all lines of a kind in one series, with gaps between
   ground.style = MarkStyle::thin, ground.colour = 7;
-  outline.style = MarkStyle::line, outline.colour = 6;
+  outline.style = MarkStyle::line, outline.colour = 6, outline.label = "outline of all that was ever wet";
+  Series lake;
+  lake.style = MarkStyle::dashes, lake.colour = 0, lake.label = "water's edge at the start";
   const auto join = [&](Series& s, const auto& line) {
     for (const auto& p : line) s.x.push_back(p.x + info_.offset.x), s.y.push_back(p.y + info_.offset.y);
     s.x.push_back(missing), s.y.push_back(missing);
   };
   for (const GroundLine& line : run_up_lines()) join(outline, line);
+  for (const auto& line : edge_of(first_)) join(lake, line);
   for (const double z : contour_levels()) {
     for (const auto& line : contour_lines(ground_, z)) join(ground, line);
   }
@@ -151,11 +159,11 @@ Figure MapMeasurement::figure() const {
     m.x0 = r.x0 + info_.offset.x, m.y0 = r.y0 + info_.offset.y, m.dx = r.dx, m.nx = r.nx, m.ny = r.ny;
     m.value = r.value;
     for (float& v : m.value) v += static_cast<float>(up);
-    m.overlay = {ground, outline};
+    m.overlay = {ground, outline, lake};
     figure.map.push_back(std::move(m));
   };
   add("Highest water level", "elevation (m)", level_, info_.offset.z);
-  add("Arrival time", "time (s)", arrival_, 0.0);
+  add(("Arrival: first departure by " + format_number(threshold_) + " m").c_str(), "time (s)", arrival_, 0.0);
   return figure;
 }
 

@@ -13,8 +13,18 @@ const FluidSampler& FrameView::all_water() {
 const ColumnGrid& FrameView::grid() { return all_water().grid(); }
 
 const ConnectedWater& FrameView::connected() {
-  if (!connected_) connected_ = find_connected_water(grid(), info_.dp);
+  if (!connected_) connected_ = connected(ConnectivityRule{});
   return *connected_;
+}
+
+ConnectedWater FrameView::connected(const ConnectivityRule& rule) {
+  const float rest = static_cast<float>(info_.fluid_density());
+  std::vector<float> relative;
+  if (info_.has_case && frame_.fluid.density.size() == frame_.fluid.position.size()) {
+    relative = frame_.fluid.density;
+    for (float& r : relative) r /= rest;
+  }
+  return find_connected_water(grid(), info_.dp, rule, relative);
 }
 
 const std::vector<Vec3d>& FrameView::main_positions() {

@@ -103,6 +103,7 @@ std::string curve(const std::string& block, const Series& s, int number, bool al
       break;
     case MarkStyle::line_points: out << "$" << block << " with linespoints lw 1.5" << point << " dt " << dash; break;
     case MarkStyle::band: out << "$" << block << " using 1:3:4 with filledcurves" << colour; break;
+    case MarkStyle::steps: out << "$" << block << " with fsteps lw 2" << colour << " dt " << dash; break;
     case MarkStyle::impulses: out << "$" << block << " with impulses lw 2" << colour; break;
   }
   out << title;
@@ -127,7 +128,10 @@ Range range_of(const Panel& p, bool vertical) {
 
 // A constant or empty series would leave gnuplot without a range.
 void write_range(std::ostream& out, const char* axis, const Range& r, bool log, bool reverse) {
-  if (r.low > r.high) {
+  if (log && r.high > 0.0 && r.high > r.low && r.low > 0.0) {  // room for marks and names at both ends
+    const double room = std::max(1.25, std::pow(r.high / r.low, 0.06));
+    out << "set " << axis << "range [" << r.low / room << ":" << r.high * room << "]\n";
+  } else if (r.low > r.high) {
     out << "set " << axis << "range [0:1]\n";
   } else if (r.high - r.low < 1e-12 * std::max(1.0, std::abs(r.high))) {
     const double pad = log ? 0.0 : std::max(0.5 * std::abs(r.high), 0.5e-3);
@@ -138,30 +142,51 @@ void write_range(std::ostream& out, const char* axis, const Range& r, bool log, 
   }
 }
 
-void write_panel(std::ostream& out, const Panel& p, int index) {
+std::size_t legend_rows(const std::vector<Series>& series, std::size_t columns) {
+  std::size_t named = 0;
+  for (const Series& s : series) named += !s.label.empty();
+  return (named + columns - 1) / columns;
+}
+
+// The legend below the axis, columns as wide as its longest name needs.
+std::size_t legend_columns(const std::vector<Series>& series, double width_mm) {
+  std::size_t longest = 1;
+  for (const Series& s : series) longest = std::max(longest, s.label.size());
+  return std::clamp<std::size_t>(static_cast<std::size_t>(width_mm / (18.0 + 1.9 * static_cast<double>(longest))), 1, 4);
+}
+
+void write_legend(std::ostream& out, const std::vector<Series>& series, double width_mm) {
+  const std::size_t columns = legend_columns(series, width_mm), rows = legend_rows(series, columns);
+  if (rows == 0) out << "unset key\nset bmargin 3.6\n";
+  else out << "set key bmargin center horizontal maxcols " << columns << " maxrows " << rows << " noopaque\nset bmargin " << 4.4 + 1.3 * static_cast<double>(rows) << "\n";
+}
+
+bool has_numbers(const Series& s) {
+  for (std::size_t i = 0; i < s.x.size(); ++i) {
+    if (std::isfinite(s.x[i]) && std::isfinite(s.y[i])) return true;
+  }
+  return false;
+}
+
+void write_panel(std::ostream& out, const Panel& p, int index, double width_mm) {
   const std::string small_print = p.note.empty() ? "" : "\n{/*0.82 " + p.note + "}";
   out << "set title " << quoted((p.title.empty() ? "" : "{/*1.08 " + p.title + "}") + small_print) << " offset 0,-0.3\nset xlabel " << quoted(p.x_label)
       << "\nset ylabel " << quoted(p.y_label) << "\n"
       << (p.log_x ? "set logscale x\n" : "unset logscale x\n") << (p.log_y ? "set logscale y\n" : "unset logscale y\n")
-      << (p.equal_axes ? "set size ratio -1\n" : "set size noratio\n");
-  out << "set format x '" << (p.log_x ? "10^{%T}" : "%g") << "'\nset format y '" << (p.log_y ? "10^{%T}" : "%g") << "'\n";
-  write_range(out, "x", range_of(p, false), p.log_x, false);
+      << (p.equal_axes ? "set size ratio -1\n" : "");
+  const Range x = range_of(p, false), y = range_of(p, true);
+  // Powers of ten alone would leave an axis of two decades almost without numbers.
+  const auto format = [](bool log, const Range& r) { return log && r.high > 3e3 * r.low ? "10^{%T}" : "%g"; };
+  out << "set format x '" << format(p.log_x, x) << "'\nset format y '" << format(p.log_y, y) << "'\n";
+  if (std::isfinite(p.x_low) && std::isfinite(p.x_high)) out << "set xrange [" << p.x_low << ":" << p.x_high << "]\n";
+  else write_range(out, "x", x, p.log_x, false);
   if (std::isfinite(p.y_low) && std::isfinite(p.y_high)) out << "set yrange [" << p.y_low << ":" << p.y_high << "]\n";
-  else write_range(out, "y", range_of(p, true), p.log_y, p.reverse_y);
-  std::size_t named = 0;
-  for (const Series& s : p.series) named += !s.label.empty();
-  // The legend below the axis; the margin makes room for its rows.
-  const std::size_t rows = (named + 2) / 3;
-  if (named == 0) out << "unset key\nunset bmargin\n";
-  else out << "set key bmargin center horizontal maxcols 3 maxrows " << rows << " noopaque\nset bmargin " << 4.4 + 1.3 * rows << "\n";
+  else write_range(out, "y", y, p.log_y, p.reverse_y);
+  write_legend(out, p.series, width_mm);
   std::string command;
   for (std::size_t k = 0; k < p.series.size(); ++k) {
     const std::string block = "p" + std::to_string(index) + "s" + std::to_string(k);
-    bool any = false;
-    for (std::size_t i = 0; i < p.series[k].x.size(); ++i) {
-      any = any || (std::isfinite(p.series[k].x[i]) && std::isfinite(p.series[k].y[i]));
-    }
-    if (!any) continue;
+    if (!has_numbers(p.series[k])) continue;
     write_block(out, block, p.series[k]);
     command += (command.empty() ? "plot " : ", \\\n  ") + curve(block, p.series[k], static_cast<int>(k), p.series.size() == 1);
   }
@@ -177,7 +202,7 @@ double tick_step(double range) {
   return 10.0 * unit;
 }
 
-void write_map(std::ostream& out, const ColourMap& m, int index) {
+void write_map(std::ostream& out, const ColourMap& m, int index, double width_mm) {
   out << "$m" << index << " << EOD\n";
   for (int iy = 0; iy < m.ny; ++iy) {
     for (int ix = 0; ix < m.nx; ++ix) {
@@ -187,10 +212,11 @@ void write_map(std::ostream& out, const ColourMap& m, int index) {
     out << '\n';
   }
   out << "EOD\nset title " << quoted(m.title) << "\nset xlabel " << quoted(m.x_label) << "\nset ylabel "
-      << quoted(m.y_label) << "\nset cblabel " << quoted(m.value_label)
-      << "\nunset bmargin\nunset logscale\nset size ratio -1\nset format x '%.7g'\nset format y '%.7g'\nset style fill solid 1 noborder\nset xtics " << tick_step(m.nx * m.dx) << "\n";
+      << quoted(m.y_label) << "\nset cblabel " << quoted(m.value_label) << " offset 1.6,0\nset format cb '%g'"
+      << "\nset rmargin 12\nunset logscale\nset size ratio -1\nset format x '%.7g'\nset format y '%.7g'\nset style fill solid 1 noborder\nset xtics " << tick_step(m.nx * m.dx) << "\n";
   out << "set xrange [" << m.x0 - 0.5 * m.dx << ":" << m.x0 + (m.nx - 0.5) * m.dx << "]\nset yrange ["
-      << m.y0 - 0.5 * m.dx << ":" << m.y0 + (m.ny - 0.5) * m.dx << "]\nunset key\n";
+      << m.y0 - 0.5 * m.dx << ":" << m.y0 + (m.ny - 0.5) * m.dx << "]\n";
+  write_legend(out, m.overlay, width_mm);
   for (std::size_t k = 0; k < m.overlay.size(); ++k) {
     write_block(out, "m" + std::to_string(index) + "s" + std::to_string(k), m.overlay[k]);
   }
@@ -202,22 +228,53 @@ void write_map(std::ostream& out, const ColourMap& m, int index) {
   out << "\nset datafile missing 'nan'\n";
 }
 
+// Panels that share an axis of the same name share its range, too; and one legend, below the last, when all have the same.
+std::vector<Panel> aligned(std::vector<Panel> panel) {
+  Range shared;
+  bool same_axis = panel.size() > 1, same_legend = panel.size() > 1;
+  const auto labels = [](const Panel& p) {
+    std::string all;
+    for (const Series& s : p.series) all += s.label + '\n';
+    return all;
+  };
+  for (const Panel& p : panel) {
+    same_axis = same_axis && p.x_label == panel[0].x_label && !p.log_x && !std::isfinite(p.x_low);
+    same_legend = same_legend && labels(p) == labels(panel[0]);
+    const Range r = range_of(p, false);
+    shared.low = std::min(shared.low, r.low), shared.high = std::max(shared.high, r.high);
+  }
+  for (std::size_t k = 0; k < panel.size(); ++k) {
+    if (same_axis && shared.high > shared.low) panel[k].x_low = shared.low, panel[k].x_high = shared.high;
+    if (same_legend && k + 1 < panel.size()) {
+      for (Series& s : panel[k].series) s.label.clear();
+    }
+  }
+  return panel;
+}
+
 std::string script(const Figure& f, const std::string& kind, const std::string& output) {
   std::ostringstream out;
   out.precision(10);
-  const std::size_t rows = f.panel.size() + f.map.size();
-  const double height = f.panel_height_mm * (static_cast<double>(f.panel.size()) + 1.4 * static_cast<double>(f.map.size())) +
-                        (f.title.empty() ? 0.0 : 9.0);
+  const std::vector<Panel> panel = aligned(f.panel);
+  const auto legend_mm = [&](const std::vector<Series>& s) { return 5.2 * static_cast<double>(legend_rows(s, legend_columns(s, f.width_mm))); };
+  std::vector<double> heights;
+  for (const Panel& p : panel) heights.push_back(f.panel_height_mm + legend_mm(p.series));
+  for (const ColourMap& m : f.map) heights.push_back(1.4 * f.panel_height_mm + legend_mm(m.overlay));
+  double height = f.title.empty() ? 0.0 : 9.0;
+  for (const double h : heights) height += h;
   out << terminal(kind, f.width_mm, height) << "set output " << quoted(output) << "\n";
   write_common(out);
-  if (f.panel.size() > 1) out << "set lmargin 11\n";  // the axes of stacked panels stand in one line
-  if (rows > 1 || !f.title.empty()) {
-    out << "set multiplot layout " << rows << ",1" << (f.title.empty() ? "" : " title " + quoted(f.title) + " font ',12'")
-        << "\n";
+  if (panel.size() > 1) out << "set lmargin 11\n";  // the axes of stacked panels stand in one line
+  const bool several = heights.size() > 1 || !f.title.empty();
+  if (several) out << "set multiplot" << (f.title.empty() ? "" : " title " + quoted(f.title) + " font ',12'") << "\n";
+  double top = f.title.empty() ? height : height - 9.0;
+  for (std::size_t k = 0; k < heights.size(); ++k) {
+    top -= heights[k];
+    if (several) out << "set origin 0," << top / height << "\nset size noratio 1," << heights[k] / height << "\n";
+    if (k < panel.size()) write_panel(out, panel[k], static_cast<int>(k), f.width_mm);
+    else write_map(out, f.map[k - panel.size()], static_cast<int>(k - panel.size()), f.width_mm);
   }
-  for (std::size_t k = 0; k < f.panel.size(); ++k) write_panel(out, f.panel[k], static_cast<int>(k));
-  for (std::size_t k = 0; k < f.map.size(); ++k) write_map(out, f.map[k], static_cast<int>(k));
-  if (rows > 1 || !f.title.empty()) out << "unset multiplot\n";
+  if (several) out << "unset multiplot\n";
   out << "unset output\n";
   return out.str();
 }

@@ -10,7 +10,7 @@
 
 namespace gdesp::analysis {
 
-enum class MarkStyle { line, thin, points, line_points, dashes, band, impulses };
+enum class MarkStyle { line, thin, points, line_points, dashes, band, impulses, steps };
 
 struct Series {
   std::string label;              ///< empty: not in the legend
@@ -27,7 +27,7 @@ struct Panel {
   bool log_x = false, log_y = false, equal_axes = false;
   bool reverse_y = false;
   std::string note;               ///< small print under the title
-  double y_low = NAN, y_high = NAN;  ///< where the data's own range is not wanted
+  double x_low = NAN, x_high = NAN, y_low = NAN, y_high = NAN;  ///< where the data's own range is not wanted
 };
 
 /// A coloured map: value(ix, iy) at x0 + ix dx, y0 + iy dx; NaN stays white.
@@ -36,7 +36,7 @@ struct ColourMap {
   double x0 = 0, y0 = 0, dx = 1;
   int nx = 0, ny = 0;
   std::vector<float> value;
-  std::vector<Series> overlay;    ///< lines on top
+  std::vector<Series> overlay;    ///< lines on top; those with a label are named below the map
 };
 
 struct Figure {
@@ -44,7 +44,7 @@ struct Figure {
   std::vector<Panel> panel;       ///< one below the other
   std::vector<ColourMap> map;     ///< drawn after the panels
   double width_mm = 160.0;        ///< of the page; a two-column figure of most journals
-  double panel_height_mm = 80.0;
+  double panel_height_mm = 80.0;  ///< without the legend
 };
 
 /// Labels and titles are set in gnuplot's enhanced text ("x_0", "m^3"): names that users gave go through this first.

@@ -11,7 +11,18 @@ namespace gdesp::analysis {
 
 namespace {
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+double drawn_range(const Panel& panel) {
+  double low = 1e300, high = -1e300;
+  for (const Series& s : panel.series) {
+    for (const double y : s.y) {
+      if (std::isfinite(y)) low = std::min(low, y), high = std::max(high, y);
+    }
+  }
+  return high - low;
 }
+
+}  // namespace
 
 std::vector<double> top_of_grains(const GrainTable& grains, const std::vector<Point2>& point, int dimensions) {
   std::vector<double> top(point.size(), none);
@@ -151,10 +162,28 @@ Figure ProfileMeasurement::figure() const {
     panel.series.push_back({"water, " + at, distance_, lifted(c.water), {}, {}, MarkStyle::line, {}, static_cast<int>(j)});
     if (solids) panel.series.push_back({"slide, " + at, distance_, lifted(c.solids), {}, {}, MarkStyle::dashes, {}, static_cast<int>(j)});
   }
+  const double range = drawn_range(panel);
   figure.panel.push_back(std::move(panel));
   figure.width_mm = 180.0;
-  figure.panel_height_mm = 105.0;
+  figure.panel_height_mm = 90.0;
+  if (const auto waves = above_still_water(shown, range)) figure.panel.push_back(*waves);
   return figure;
+}
+
+// The water alone, where the valley is so much higher that its waves would not be seen.
+std::optional<Panel> ProfileMeasurement::above_still_water(std::size_t shown, double range) const {
+  if (!info_.still_water_level || info_.scene.terrain.files.empty()) return std::nullopt;
+  Panel panel;
+  panel.title = "The water's surface above still water";
+  panel.x_label = "distance along the line (m)";
+  panel.y_label = "above still water (m)";
+  for (std::size_t j = 0; j < shown; ++j) {
+    const std::size_t k = shown == curve_.size() ? j : j * (curve_.size() - 1) / (shown - 1);
+    std::vector<double> rise = curve_[k].water;
+    for (double& z : rise) z -= *info_.still_water_level;
+    panel.series.push_back({"t = " + format_number(curve_[k].time) + " s", distance_, std::move(rise), {}, {}, MarkStyle::line, {}, static_cast<int>(j)});
+  }
+  return drawn_range(panel) < 0.3 * range ? std::optional(panel) : std::nullopt;
 }
 
 std::string ProfileMeasurement::summary() const {

@@ -35,6 +35,7 @@ class ProfileMeasurement : public Measurement {
  private:
   void choose_line();
   Curve measure(FrameView& view) const;
+  std::optional<Panel> above_still_water(std::size_t shown, double range) const;
   void emit_curve(const Curve& curve, const RowSink& emit) const;
 
   ProfileOptions options_;

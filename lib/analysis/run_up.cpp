@@ -22,8 +22,8 @@ bool BankRegion::contains(double x, double y) const {
 
 namespace {
 
-std::vector<BankParticle> find_bank_particles(const ColumnGrid& grid, const ConnectedWater& water, double dp,
-                                              double still, const WallSurface& walls, double contact) {
+std::vector<BankParticle> find_bank_particles(const ColumnGrid& grid, const ConnectedWater& water, const BankContact& at,
+                                              const WallSurface& walls) {
   std::vector<BankParticle> result;
 #pragma omp parallel
   {
@@ -31,9 +31,9 @@ std::vector<BankParticle> find_bank_particles(const ColumnGrid& grid, const Conn
 #pragma omp for schedule(static) nowait
     for (std::size_t s = 0; s < grid.size(); ++s) {
       const Vec3d& p = grid.position(s);
-      const double height = p.z + 0.5 * dp - still;
+      const double height = p.z + 0.5 * at.dp - at.still_water_level;
       if (height <= 0.0 || !water.main[grid.index(s)]) continue;
-      if (!walls.empty() && !walls.distance(p, contact)) continue;
+      if (!walls.empty() && !walls.distance(p, at.contact)) continue;
       mine.push_back({p, height});
     }
 #pragma omp critical
@@ -48,11 +48,10 @@ std::vector<BankParticle> find_bank_particles(const ColumnGrid& grid, const Conn
 
 }  // namespace
 
-RunUpFrame measure_run_up(const ColumnGrid& grid, double dp, double still_water_level, const WallSurface& walls,
-                          std::span<const BankRegion> regions, const RunUpRule& rule) {
-  const ConnectedWater water = find_connected_water(grid, dp, rule.connectivity);
+RunUpFrame measure_run_up(const ColumnGrid& grid, const ConnectedWater& water, const BankContact& at, const WallSurface& walls,
+                          std::span<const BankRegion> regions) {
   RunUpFrame frame;
-  frame.on_bank = find_bank_particles(grid, water, dp, still_water_level, walls, rule.contact * dp);
+  frame.on_bank = find_bank_particles(grid, water, at, walls);
   frame.region.resize(regions.size());
   for (std::size_t k = 0; k < regions.size(); ++k) {
     for (const BankParticle& p : frame.on_bank) {  // highest first
@@ -67,7 +66,7 @@ RunUpFrame measure_run_up(const ColumnGrid& grid, double dp, double still_water_
     if (water.main[grid.index(s)]) continue;
     const Vec3d& p = grid.position(s);
     for (std::size_t k = 0; k < regions.size(); ++k) {
-      const double height = p.z + 0.5 * dp - still_water_level;
+      const double height = p.z + 0.5 * at.dp - at.still_water_level;
       if (height > frame.region[k].splash && regions[k].contains(p.x, p.y)) frame.region[k].splash = height;
     }
   }

@@ -3,8 +3,8 @@
 //
 // Definition. R(t) = highest point of the connected water that lies on a bank, above the still-water level:
 //   R = max z_i + dp/2 - z_still  over particles i that
-//     - belong to the connected main body (connected_water.hpp: chains of neighbours within 1.5 dp, at least one
-//       particle thick; drops, spray and threads are splash and reported apart),
+//     - belong to the connected main body (connected_water.hpp: chains of neighbours within 1.5 dp, at least one particle
+//       thick, of water whose density is whole; drops, spray, threads and torn water are splash and reported apart),
 //     - touch a wall at rest (terrain, tank): centre within 2.6 dp (the support of the smoothing) of its surface.
 // The dp/2 carries the particle's centre to the edge of the water it stands for, so that still water reads R = 0.
 // No such particle above still water: R = 0. Resolution of the reading: dp (reported by the tool).
@@ -58,9 +58,12 @@ struct RunUpFrame {
   std::vector<BankParticle> on_bank;  ///< for profiles along the shore and run-up lines
 };
 
+/// Level and contact distance of a reading, m.
+struct BankContact { double dp, still_water_level, contact; };
+
 /// `walls` empty: every particle of the main body counts as on a bank (a file without its case).
-RunUpFrame measure_run_up(const ColumnGrid& grid, double dp, double still_water_level, const WallSurface& walls,
-                          std::span<const BankRegion> regions, const RunUpRule& rule = {});
+RunUpFrame measure_run_up(const ColumnGrid& grid, const ConnectedWater& water, const BankContact& at, const WallSurface& walls,
+                          std::span<const BankRegion> regions);
 
 /// Highest run-up in bins along a straight line (a section, or the lake's long axis), over all frames added.
 class ShoreProfile {

@@ -61,7 +61,8 @@ void RunUpMeasurement::choose_line() {
 }
 
 void RunUpMeasurement::add(FrameView& view, const RowSink& emit) {
-  const RunUpFrame f = measure_run_up(view.grid(), info_.dp, still_, walls_, regions_, options_.rule);
+  const RunUpFrame f = measure_run_up(view.grid(), view.connected(options_.rule.connectivity),
+                                      {info_.dp, still_, options_.rule.contact * info_.dp}, walls_, regions_);
   time_.push_back(view.time());
   profile_->add(view.time(), f.on_bank, regions_[profile_region_]);
   const double none = std::numeric_limits<double>::quiet_NaN();
@@ -86,44 +87,68 @@ void RunUpMeasurement::finish(const RowSink& emit) {
   }
 }
 
-Figure RunUpMeasurement::figure() const {
-  Figure figure;
-  Panel in_time;
-  in_time.title = "Run-up against time, " + info_.name;
-  in_time.x_label = "time t (s)";
-  in_time.y_label = "height above still water (m)";
-  in_time.note = "resolution " + format_number(info_.dp) + " m; connected water on a wall";
+Panel RunUpMeasurement::against_time() const {
+  Panel panel;
+  panel.title = "Run-up against time, " + plain_text(info_.name);
+  panel.x_label = "time t (s)";
+  panel.y_label = "above still water (m)";
+  panel.note = "connected water on a wall; reading resolves dp = " + format_number(info_.dp) + " m";
   for (std::size_t k = 0; k < regions_.size(); ++k) {
-    in_time.series.push_back({regions_[k].name == "all" ? "whole shore" : plain_text(regions_[k].name), time_, height_[k], {}, {},
-                              MarkStyle::line, {}, static_cast<int>(k)});
+    panel.series.push_back({regions_[k].name == "all" ? "whole shore" : plain_text(regions_[k].name), time_, height_[k], {}, {},
+                            MarkStyle::line, {}, static_cast<int>(k)});
   }
-  in_time.y_low = 0.0;
-  in_time.y_high = 1.0;
   double highest_splash = 0.0;
   for (const double s : splash_[0]) highest_splash = std::max(highest_splash, std::isfinite(s) ? s : 0.0);
-  if (maximum_[0].height > 0.0) in_time.y_high = 1.4 * maximum_[0].height;
-  if (highest_splash > in_time.y_high) in_time.note += "; splash up to " + format_number(std::round(10 * highest_splash) / 10) + " m";
-  const bool any_splash = std::any_of(splash_[0].begin(), splash_[0].end(), [](double s) { return std::isfinite(s); });
-  if (any_splash) in_time.series.push_back({"splash", time_, splash_[0], {}, {}, MarkStyle::points, {}, 7});
-  figure.panel.push_back(std::move(in_time));
-  if (info_.dimensions == 2) return figure;
-  Panel along;
-  along.title = "Highest run-up along the shore, " + plain_text(regions_[profile_region_].name);
-  along.x_label = "distance along " + plain_text(line_.name) + " (m)";
-  along.y_label = "run-up (m)";
-  along.y_low = 0.0;
-  along.y_high = std::max(1.1 * maximum_[profile_region_].height, info_.dp);
-  Series highest{"", {}, {}, {}, {}, MarkStyle::line, {}, 0};
-  Series area{"", {}, {}, {}, {}, MarkStyle::band, {}, 0};
-  for (const ShoreProfile::Bin& bin : profile_->bins()) {
-    highest.x.push_back(bin.distance);
-    highest.y.push_back(bin.height);
-    area.low.push_back(0.0);
-    area.high.push_back(bin.height);
+  panel.y_low = 0.0;
+  panel.y_high = maximum_[0].height > 0.0 ? 1.25 * maximum_[0].height : info_.dp;
+  if (highest_splash > panel.y_high) panel.note += "; splash up to " + format_number(std::round(10 * highest_splash) / 10) + " m";
+  if (highest_splash > 0.0) panel.series.push_back({"splash (not connected)", time_, splash_[0], {}, {}, MarkStyle::points, {}, 7});
+  return panel;
+}
+
+Panel RunUpMeasurement::along_shore() const {
+  Panel panel;
+  const auto place = [&](const Point2& p) {
+    return "(" + format_number(std::round(p.x + info_.offset.x)) + ", " + format_number(std::round(p.y + info_.offset.y)) + ")";
+  };
+  const auto& bins = profile_->bins();
+  const double width = bins.size() > 1 ? bins[1].distance - bins[0].distance : 2.0 * bins[0].distance;
+  panel.title = "Highest run-up along the shore, " + (regions_[profile_region_].name == "all" ? "whole shore" : plain_text(regions_[profile_region_].name));
+  panel.x_label = "distance along " + plain_text(line_.name) + " (m)";
+  panel.y_label = "highest run-up (m)";
+  panel.note = "from " + place(line_.from) + " to " + place(line_.to) + "; places " + format_number(width) + " m wide; bars: dp/2";
+  Series area{"", {}, {}, {}, {}, MarkStyle::band, {}, 0}, highest{"", {}, {}, {}, {}, MarkStyle::line, {}, 0}, reading{"", {}, {}, {}, {}, MarkStyle::points, {}, 0};
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const auto put = [&](double x, double y) {
+    highest.x.push_back(x), highest.y.push_back(y);
+    area.x.push_back(x), area.y.push_back(y), area.low.push_back(0.0), area.high.push_back(y);
+  };
+  double last = 0.0, top = info_.dp;
+  for (const ShoreProfile::Bin& bin : bins) {
+    if (!bin.any) {
+      put(none, none);  // no bank here that the water reached
+      continue;
+    }
+    put(bin.distance - 0.5 * width, bin.height);
+    put(bin.distance + 0.5 * width, bin.height);
+    reading.x.push_back(bin.distance), reading.y.push_back(bin.height);
+    reading.low.push_back(std::max(0.0, bin.height - 0.5 * info_.dp)), reading.high.push_back(bin.height + 0.5 * info_.dp);
+    last = bin.distance + 0.5 * width;
+    top = std::max(top, bin.height + 0.5 * info_.dp);
   }
-  area.x = highest.x, area.y = highest.y;
-  along.series = {area, highest};
-  figure.panel.push_back(std::move(along));
+  panel.x_low = 0.0;
+  panel.x_high = last > 0.0 ? last : 1.0;
+  panel.y_low = 0.0;
+  panel.y_high = 1.1 * top;
+  panel.series = {area, highest};
+  if (reading.x.size() <= 40) panel.series.push_back(reading);
+  return panel;
+}
+
+Figure RunUpMeasurement::figure() const {
+  Figure figure;
+  figure.panel.push_back(against_time());
+  if (info_.dimensions == 3) figure.panel.push_back(along_shore());
   return figure;
 }
 

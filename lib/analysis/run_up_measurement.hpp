@@ -31,6 +31,8 @@ class RunUpMeasurement : public Measurement {
 
  private:
   void choose_line();
+  Panel against_time() const;
+  Panel along_shore() const;
 
   RunUpOptions options_;
   RunInfo info_;

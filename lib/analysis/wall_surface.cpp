@@ -119,14 +119,15 @@ std::optional<double> WallSurface::distance(const Vec3d& p, double limit) const 
 }
 
 std::optional<double> WallSurface::height(double x, double y) const {
-  double best = -std::numeric_limits<double>::infinity();
+  constexpr double nothing = -std::numeric_limits<double>::infinity();
+  double ground = nothing, any = nothing;
   if (empty()) return std::nullopt;
   std::uint32_t stack[64];
   int depth = 0;
   stack[depth++] = 0;
   while (depth > 0) {
     const Node& node = node_[stack[--depth]];
-    if (x < node.lower.x || x > node.upper.x || y < node.lower.y || y > node.upper.y || node.upper.z <= best) continue;
+    if (x < node.lower.x || x > node.upper.x || y < node.lower.y || y > node.upper.y || node.upper.z <= ground) continue;
     if (node.count == 0) {
       stack[depth++] = node.first;
       stack[depth++] = node.first + 1;
@@ -139,10 +140,13 @@ std::optional<double> WallSurface::height(double x, double y) const {
       const double u = ((x - t.a.x) * (t.c.y - t.a.y) - (t.c.x - t.a.x) * (y - t.a.y)) / area;
       const double v = ((t.b.x - t.a.x) * (y - t.a.y) - (x - t.a.x) * (t.b.y - t.a.y)) / area;
       if (u < -1e-9 || v < -1e-9 || u + v > 1.0 + 1e-9) continue;
-      best = std::max(best, t.a.z + u * (t.b.z - t.a.z) + v * (t.c.z - t.a.z));
+      const double z = t.a.z + u * (t.b.z - t.a.z) + v * (t.c.z - t.a.z);
+      any = std::max(any, z);
+      if (area > 0.0) ground = std::max(ground, z);  // counter-clockwise from above: faces up
     }
   }
-  return std::isfinite(best) ? std::optional(best) : std::nullopt;
+  if (!std::isfinite(any)) return std::nullopt;
+  return std::isfinite(ground) ? ground : any;
 }
 
 }  // namespace gdesp::analysis

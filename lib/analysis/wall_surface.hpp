@@ -19,7 +19,8 @@ class WallSurface {
   bool empty() const { return triangle_.empty(); }
   /// Distance from p to the nearest triangle, m, if it is at most `limit`; else nullopt.
   std::optional<double> distance(const Vec3d& p, double limit) const;
-  /// Elevation of the highest triangle over (x, y), m; nullopt where there is none.
+  /// Elevation of the ground at (x, y), m: of the highest triangle that faces up (the lid of a closed tank does not); of
+  /// the highest of any where none does; nullopt where there is none at all.
   std::optional<double> height(double x, double y) const;
 
  private:

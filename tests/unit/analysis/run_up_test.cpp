@@ -31,9 +31,15 @@ std::vector<Vec3d> water_up_to(double level, double tongue_end, double tongue_th
 
 const std::vector<BankRegion> anywhere{{"all", {}, {}, {}}};
 
+RunUpFrame read(const std::vector<Vec3d>& water, const TriangleTable& walls, const std::vector<BankRegion>& regions,
+                const std::vector<float>& density = {}) {
+  const ColumnGrid grid(water, 0.26, 3);
+  return measure_run_up(grid, find_connected_water(grid, dp, {}, density), {dp, 1.0, 2.6 * dp}, WallSurface(walls), regions);
+}
+
 TEST(RunUp, StillWaterDoesNotClimb) {
   const auto p = water_up_to(1.0, 0.0, 0.0);
-  const RunUpFrame f = measure_run_up(ColumnGrid(p, 0.26, 3), dp, 1.0, WallSurface(beach()), anywhere);
+  const RunUpFrame f = read(p, beach(), anywhere);
   EXPECT_NEAR(f.region[0].height, 0.0, 1e-9);
   EXPECT_EQ(f.region[0].splash, 0.0);
 }
@@ -41,7 +47,7 @@ TEST(RunUp, StillWaterDoesNotClimb) {
 // A tongue on the beach that ends at x = 8: its top there is bed(8) + thickness, up to the lattice.
 TEST(RunUp, ATongueOnTheBeachIsReadToOneParticle) {
   const auto p = water_up_to(1.0, 8.0, 0.25);
-  const RunUpFrame f = measure_run_up(ColumnGrid(p, 0.26, 3), dp, 1.0, WallSurface(beach()), anywhere);
+  const RunUpFrame f = read(p, beach(), anywhere);
   EXPECT_TRUE(f.region[0].climbs);
   EXPECT_NEAR(f.region[0].height, bed(8.0) + 0.25 - 1.0, dp);
   EXPECT_NEAR(f.region[0].at.x, 8.0, 2 * dp);
@@ -52,9 +58,23 @@ TEST(RunUp, SplashOnTheBankAndAWaveInTheMiddleDoNotCount) {
   const auto crest = fill({1, 0, 1}, {2, 2, 1.8}, dp, 3, [](const Vec3d&) { return true; });  // away from any wall
   p.insert(p.end(), crest.begin(), crest.end());
   p.push_back({9.0, 1.0, bed(9.0) + 0.05});
-  const RunUpFrame f = measure_run_up(ColumnGrid(p, 0.26, 3), dp, 1.0, WallSurface(beach()), anywhere);
+  const RunUpFrame f = read(p, beach(), anywhere);
   EXPECT_NEAR(f.region[0].height, 0.0, 1e-9);
   EXPECT_NEAR(f.region[0].splash, bed(9.0) + 0.1 - 1.0, 1e-9);
+}
+
+// A jet against the wall that is joined to the lake, but whose density has fallen apart: torn water, counted as splash.
+TEST(RunUp, TornWaterIsSplash) {
+  auto p = water_up_to(1.0, 0.0, 0.0);
+  const std::size_t whole = p.size();
+  const auto jet = fill({6, 0.5, 1}, {6.3, 1.5, 2.5}, dp, 3, [](const Vec3d& q) { return q.z > bed(q.x); });
+  p.insert(p.end(), jet.begin(), jet.end());
+  std::vector<float> density(p.size(), 1.0f);
+  EXPECT_NEAR(read(p, beach(), anywhere, density).region[0].height, 0.4, 1e-6);  // of the jet what lies on the beach
+  for (std::size_t k = whole; k < p.size(); ++k) density[k] = 0.7f;
+  const RunUpFrame torn = read(p, beach(), anywhere, density);
+  EXPECT_NEAR(torn.region[0].height, 0.0, 1e-9);
+  EXPECT_NEAR(torn.region[0].splash, 1.5, 1e-9);
 }
 
 TEST(RunUp, AVerticalWallIsABank) {
@@ -63,7 +83,7 @@ TEST(RunUp, AVerticalWallIsABank) {
   wall.triangle = {{0, 1, 2}, {0, 2, 3}};
   const auto p = fill({0, 0, 0}, {3, 2, 4}, dp, 3,
                       [](const Vec3d& q) { return q.z < 1.0 || (q.x < 0.2 && q.z < 2.5); });
-  const RunUpFrame f = measure_run_up(ColumnGrid(p, 0.26, 3), dp, 1.0, WallSurface(wall), anywhere);
+  const RunUpFrame f = read(p, wall, anywhere);
   EXPECT_NEAR(f.region[0].height, 1.5, 1e-9);
 }
 
@@ -76,7 +96,7 @@ TEST(RunUp, AMovingBodyIsNoBank) {
   auto p = water_up_to(1.0, 0.0, 0.0);
   const auto crest = fill({1, 0, 1}, {2, 2, 1.8}, dp, 3, [](const Vec3d&) { return true; });
   p.insert(p.end(), crest.begin(), crest.end());
-  const RunUpFrame f = measure_run_up(ColumnGrid(p, 0.26, 3), dp, 1.0, WallSurface(gate), anywhere);
+  const RunUpFrame f = read(p, gate, anywhere);
   EXPECT_NEAR(f.region[0].height, 0.0, 1e-9);
 }
 
@@ -87,7 +107,7 @@ TEST(RunUp, RegionsAreReadApart) {
   const std::vector<BankRegion> regions{{"right half", {{0, 1}, {10, 1}, {10, 2}, {0, 2}}, {}, {}},
                                         {"left half", {{0, 0}, {10, 0}, {10, 1}, {0, 1}}, {}, {}},
                                         {"side", {}, Point2{0, 1}, Point2{1, 0}}};
-  const RunUpFrame f = measure_run_up(ColumnGrid(p, 0.26, 3), dp, 1.0, WallSurface(beach()), regions);
+  const RunUpFrame f = read(p, beach(), regions);
   EXPECT_NEAR(f.region[0].height, 0.0, 1e-9);
   EXPECT_GT(f.region[1].height, 0.4);
   EXPECT_NEAR(f.region[2].height, 0.0, 1e-9) << "left of the axis is y > 1";
@@ -137,6 +157,16 @@ TEST(WallSurface, DistanceAgreesWithAllTriangles) {
   }
   EXPECT_NEAR(wall.height(3.0, 4.0).value(), std::sin(3.0) * std::cos(2.8), 1e-9);
   EXPECT_FALSE(wall.height(-1.0, 4.0));
+}
+
+TEST(WallSurface, TheGroundIsTheFloorOfAClosedTankNotItsLid) {
+  TriangleTable t;
+  t.vertex = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 2}, {1, 0, 2}, {1, 1, 2}, {0, 1, 2}};
+  t.triangle = {{0, 1, 2}, {0, 2, 3}, {4, 6, 5}, {4, 7, 6}};  // normals into the tank
+  EXPECT_NEAR(WallSurface(t).height(0.3, 0.4).value(), 0.0, 1e-12);
+  t.triangle = {{4, 6, 5}, {4, 7, 6}};
+  EXPECT_NEAR(WallSurface(t).height(0.3, 0.4).value(), 2.0, 1e-12) << "nothing faces up";
+  EXPECT_FALSE(WallSurface(t).height(1.3, 0.4));
 }
 
 TEST(WallSurface, PointTriangleDistanceByHand) {
