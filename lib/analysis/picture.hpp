@@ -11,7 +11,7 @@
 namespace gdesp::analysis {
 
 struct PictureOptions {
-  int width = 1600, height = 1000;        ///< pixels
+  int width = 1600, height = 900;         ///< pixels
   std::optional<double> azimuth;          ///< degrees clockwise from +y (north) to where the camera stands; default: chosen
   double elevation = 44.0;                ///< degrees above the horizontal
   double zoom = 1.0;

@@ -25,6 +25,7 @@ int run_compare(const std::vector<std::string>& arguments);
 int run_converge(const std::vector<std::string>& arguments);
 int run_tradeoff(const std::vector<std::string>& arguments);
 int run_report(const std::vector<std::string>& arguments);
+int run_plot(const std::vector<std::string>& arguments);
 int run_render(const std::vector<std::string>& arguments);
 
 /// All commands, in the order of the help.

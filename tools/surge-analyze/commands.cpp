@@ -16,6 +16,7 @@ const std::vector<Command>& commands() {
       {"compare", "differences from a reference table: RMS, bias, largest, inside its band", run_compare},
       {"converge", "several resolutions: observed order, extrapolated value, error bar", run_converge},
       {"tradeoff", "several runs: error against cost, with the Pareto front", run_tradeoff},
+      {"plot", "curves of several tables in one figure, with measurements", run_plot},
       {"report", "one HTML page with the plots and tables of a run", run_report},
       {"render", "one picture in three dimensions: terrain, water by speed, slide", run_render},
   };

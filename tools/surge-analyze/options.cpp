@@ -53,7 +53,8 @@ bool CommandLine::parse(const std::vector<std::string>& arguments, const std::st
   po::positional_options_description words;
   words.add(positional, -1);
   vm = cli::parse(arguments, all, words);
-  const std::string what = std::string(positional) == "input" ? " RUN [options]\n" : " TABLE REFERENCE [options]\n";
+  const std::string word = all.find(positional, false).semantic()->name();
+  const std::string what = " " + word.substr(0, word.find(" (=")) + (word == "TABLE" ? "..." : "") + " [options]\n";
   if (cli::answer_help_or_version(vm, "surge-analyze " + name + what + definition, all, "Example: " + example + "\n")) {
     return false;
   }

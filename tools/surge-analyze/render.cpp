@@ -62,7 +62,7 @@ int run_render(const std::vector<std::string>& arguments) {
   po::options_description own("Picture");
   own.add_options()("output,o", po::value<std::string>()->value_name("FILE.png"), "the picture (--plot does the same)");
   own.add_options()("time,t", po::value<double>()->value_name("S"), "the nearest frame (default: when the water has most kinetic energy)");
-  own.add_options()("size", po::value<std::string>()->value_name("W,H")->default_value("1600,1000"), "pixels");
+  own.add_options()("size", po::value<std::string>()->value_name("W,H")->default_value("1600,900"), "pixels");
   own.add_options()("azimuth", po::value<double>()->value_name("DEG"), "where the camera stands, clockwise from +y (default: facing the slide)");
   own.add_options()("elevation", po::value<double>()->value_name("DEG")->default_value(44.0, "44"), "of the camera above the horizontal");
   own.add_options()("zoom", po::value<double>()->value_name("F")->default_value(1.0, "1"), "above 1: closer");

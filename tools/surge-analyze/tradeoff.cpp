@@ -67,10 +67,10 @@ void add_points(const std::string& path, std::vector<Point>& points) {
   }
 }
 
-analysis::Figure draw(const std::vector<Point>& points, const std::vector<bool>& front, const std::string& quantity) {
+analysis::Figure draw(const std::vector<Point>& points, const std::vector<bool>& front, const std::string& title) {
   analysis::Panel panel;
-  panel.title = "Error against cost, " + analysis::plain_text(quantity);
-  panel.note = "lower left is better; the line joins runs that no other beats in both";
+  panel.title = title;
+  panel.note = "down and to the left is better; named: points that no other beats in both";
   panel.x_label = "wall seconds per simulated second";
   panel.y_label = "error (%)";
   panel.log_x = panel.log_y = true;
@@ -78,13 +78,13 @@ analysis::Figure draw(const std::vector<Point>& points, const std::vector<bool>&
   best.label = "Pareto front";
   best.style = analysis::MarkStyle::dashes;
   best.colour = 6;
-  std::vector<std::size_t> order;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    if (front[k]) order.push_back(k);
-  }
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return points[a].cost < points[b].cost; });
+  std::vector<std::size_t> by_cost(points.size());
+  for (std::size_t k = 0; k < points.size(); ++k) by_cost[k] = k;
+  std::sort(by_cost.begin(), by_cost.end(), [&](std::size_t a, std::size_t b) { return points[a].cost < points[b].cost; });
   const double floor = 1e-3;  // %, a logarithmic axis has no zero
-  for (const std::size_t k : order) best.x.push_back(points[k].cost), best.y.push_back(std::max(points[k].error, floor));
+  for (const std::size_t k : by_cost) {
+    if (front[k]) best.x.push_back(points[k].cost), best.y.push_back(std::max(points[k].error, floor));
+  }
   panel.series.push_back(best);
   std::vector<std::string> groups;
   for (const Point& p : points) {
@@ -93,14 +93,17 @@ analysis::Figure draw(const std::vector<Point>& points, const std::vector<bool>&
   for (std::size_t g = 0; g < groups.size(); ++g) {
     analysis::Series s;
     s.label = analysis::plain_text(groups[g]);
-    s.style = analysis::MarkStyle::points;
-    s.colour = static_cast<int>(g);
-    for (const Point& p : points) {
+    s.colour = static_cast<int>(g % 6);
+    bool spacings = true;
+    for (const std::size_t k : by_cost) {
+      const Point& p = points[k];
       if (p.group != groups[g]) continue;
       s.x.push_back(p.cost);
       s.y.push_back(std::max(p.error, floor));
-      s.name.push_back(std::isfinite(p.dp) ? "dp " + analysis::format_number(p.dp) : analysis::plain_text(p.name));
+      spacings = spacings && std::isfinite(p.dp);
+      s.name.push_back(!std::isfinite(p.dp) ? analysis::plain_text(p.name) : front[k] ? "dp " + analysis::format_number(p.dp) + " m" : "");
     }
+    s.style = spacings && s.x.size() > 1 ? analysis::MarkStyle::line_points : analysis::MarkStyle::points;
     panel.series.push_back(std::move(s));
   }
   analysis::Figure figure;
@@ -117,6 +120,7 @@ int run_tradeoff(const std::vector<std::string>& arguments) {
   own.add_options()("reference", po::value<double>()->value_name("VALUE"), "what the quantity should be");
   own.add_options()("points", po::value<std::vector<std::string>>()->value_name("TABLE"),
                     "points of other programs or earlier studies: columns name, error[%], cost[s/s] and, where known, group, source, dp[m], N");
+  own.add_options()("title", po::value<std::string>()->value_name("TEXT"), "of the chart");
   CommandLine line("tradeoff", own);
   const char* definition =
       "Error against cost. Each run is a point: error, the share by which its quantity differs from the reference, in %; cost,\n"
@@ -141,7 +145,10 @@ int run_tradeoff(const std::vector<std::string>& arguments) {
     writer.row({p.name, p.group, p.dp, p.error, p.cost, p.score, std::string(front[k] ? "yes" : "no"), p.source});
   }
   writer.finish();
-  if (line.has("plot")) analysis::write_figure(draw(points, front, line.get<std::string>("quantity")), line.get<std::string>("plot"));
+  if (line.has("plot")) {
+    const std::string title = line.has("title") ? line.get<std::string>("title") : "Error against cost, " + line.get<std::string>("quantity");
+    analysis::write_figure(draw(points, front, analysis::plain_text(title)), line.get<std::string>("plot"));
+  }
   return 0;
 }
 
