@@ -42,6 +42,7 @@ struct FrameSource::Reader {
   std::mutex mutex;
   std::condition_variable ready;
   bool busy = false, ended = false, failed = false;
+  bool closed = false, cut_short = false;  // the producer's own last word; none before its records ended
   std::string failure;
   std::optional<Frame> ahead;
   std::exception_ptr problem;
@@ -55,6 +56,7 @@ struct FrameSource::Reader {
 std::optional<FramePaths> FrameSource::Reader::next_record() {
   while (auto record = options.next_record()) {
     const std::string kind = text_of(*record, "record");
+    if (kind == "done" || kind == "interrupted" || kind == "failed") closed = true;
     if (kind == "failed") {
       const std::lock_guard lock(mutex);
       failed = true;
@@ -75,6 +77,8 @@ std::optional<FramePaths> FrameSource::Reader::next_record() {
     }
     return p;
   }
+  const std::lock_guard lock(mutex);
+  cut_short = !closed;
   return std::nullopt;
 }
 
@@ -200,6 +204,11 @@ bool FrameSource::failed() const {
 std::string FrameSource::failure() const {
   const std::lock_guard lock(reader_->mutex);
   return reader_->failure;
+}
+
+bool FrameSource::cut_short() const {
+  const std::lock_guard lock(reader_->mutex);
+  return reader_->cut_short;
 }
 
 std::size_t FrameSource::expected() const {

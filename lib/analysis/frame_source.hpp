@@ -46,6 +46,8 @@ class FrameSource {
   /// The producer ended with a "failed" record; its reason.
   bool failed() const;
   std::string failure() const;
+  /// The producer's records ended without a "done", "interrupted" or "failed": it was killed.
+  bool cut_short() const;
   /// Number of frames when it is known beforehand (folders and files), else 0.
   std::size_t expected() const;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/html_page.hpp"
 
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -26,12 +27,14 @@ th,td{padding:.3rem .7rem;border-bottom:1px solid #dde3e9;text-align:left;vertic
 th{border-bottom:2px solid #9fb0bf;white-space:nowrap}
 td.n{text-align:right;white-space:nowrap}
 figure{margin:1.2rem 0}
+.pan{overflow-x:auto}
 figure img{display:block;width:100%;max-width:56rem;height:auto}
 figcaption{color:#51606e;font-size:.92rem;margin-top:.3rem}
 .warning{border-left:5px solid #d55e00;background:#fdf3ec;padding:.6rem .9rem;margin:.8rem 0}
 details{margin:.8rem 0}summary{cursor:pointer;color:#0060a0}
 pre{overflow-x:auto;background:#f4f6f8;padding:.8rem;font-size:.85rem;line-height:1.4}
-@media(max-width:40rem){body{padding:.8rem;font-size:15px}h1{font-size:1.35rem}}
+@media(max-width:40rem){body{padding:.8rem;font-size:15px}h1{font-size:1.35rem}figure img{min-width:34rem}
+th:first-child,td:first-child{position:sticky;left:0;background:#fff}th,td{padding:.3rem .5rem}}
 @media print{nav{display:none}body{max-width:none}figure,table{break-inside:avoid}}
 )";
 
@@ -42,8 +45,20 @@ std::string data_uri(const std::string& kind, const std::string& bytes) {
 }
 
 std::string image(const std::string& uri, const std::string& caption) {
-  return "<figure><img alt=\"" + escape_html(caption) + "\" src=\"" + uri + "\"><figcaption>" + escape_html(caption) +
+  return "<figure><div class=\"pan\"><img alt=\"" + escape_html(caption) + "\" src=\"" + uri + "\"></div><figcaption>" + escape_html(caption) +
          "</figcaption></figure>\n";
+}
+
+}  // namespace
+
+namespace {
+
+// 1.23e+10 as 1.23 × 10¹⁰.
+std::string readable_number(double value) {
+  if (!std::isfinite(value)) return "–";
+  const std::string text = format_number(value);
+  const auto e = text.find('e');
+  return e == std::string::npos ? text : text.substr(0, e) + " × 10<sup>" + std::to_string(std::stoi(text.substr(e + 1))) + "</sup>";
 }
 
 }  // namespace
@@ -87,7 +102,7 @@ void HtmlPage::table(const Table& table) {
     body_ += "<tr>";
     for (const Cell& cell : row) {
       const double* number = std::get_if<double>(&cell);
-      body_ += number ? "<td class=\"n\">" + (std::isfinite(*number) ? format_number(*number) : std::string("–")) + "</td>"
+      body_ += number ? "<td class=\"n\">" + readable_number(*number) + "</td>"
                       : "<td>" + escape_html(std::get<std::string>(cell)) + "</td>";
     }
     body_ += "</tr>\n";

@@ -67,7 +67,6 @@ class Report {
     HtmlPage page(info_.scene.title.empty() ? info_.name : info_.scene.title, subtitle());
     write_summary(page);
     write_scene(page);
-    write_run_up(page);
     write_figures(page);
     write_diagnostics(page);
     write_reproduction(page);
@@ -128,12 +127,21 @@ class Report {
     if (overlap > 0.01) warnings_.push_back("Grains overlapped by up to " + rounded(100 * overlap, 3) + " % of a diameter, above 1 %: contacts are too soft for the load.");
     if (lost > 0.0) warnings_.push_back(rounded(lost, 6) + " fluid particles left the domain.");
     if (grains > 0.0) warnings_.push_back(rounded(grains, 6) + " grains left the domain.");
+    if (run_up_ && run_up_->most_torn() > 0) warnings_.push_back("Up to " + std::to_string(run_up_->most_torn()) + " water particles at a time were torn (density below 0.9 of water at rest); they count as splash. Many of them in one place point to a flaw of the walls or of the first state there.");
+    if (run_up_) {
+      std::string unresolved;
+      for (const auto& m : run_up_->maxima()) {
+        if (m.climbs && m.height < 2.0 * info_.dp) unresolved += (unresolved.empty() ? "" : ", ") + (m.region == "all" ? std::string("whole shore") : m.region);
+      }
+      if (!unresolved.empty()) warnings_.push_back("The run-up is less than two particle spacings high (" + unresolved + "; dp = " + rounded(info_.dp) + " m): it is not resolved. Take a finer resolution.");
+    }
     if (report_.coarser.size() < 2) warnings_.push_back("No error bars from resolution: they need this scene at two other resolutions (--with RUN, twice). The run-up is read to one particle spacing, " + rounded(info_.dp) + " m; its discretisation error may be larger.");
   }
 
   void write_summary(HtmlPage& page) {
     page.heading("Result");
-    for (const std::string& picture : report_.pictures) page.png(picture, "The scene: terrain, water coloured by speed, slide.");
+    for (const std::string& picture : report_.pictures) page.png(picture, "The scene: ground, water coloured by speed, slide.");
+    write_run_up(page);
     std::vector<std::string> lines;
     for (const Part& part : parts_) {
       std::string text = part.measurement->summary();
@@ -141,8 +149,8 @@ class Report {
       text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
       lines.push_back(text);
     }
-    page.list(lines);
     for (const std::string& w : warnings_) page.warning(w);
+    page.list(lines);
   }
 
   void write_scene(HtmlPage& page) {
@@ -151,14 +159,14 @@ class Report {
     const auto row = [&](const std::string& name, const std::string& value) { t.row.push_back({name, value}); };
     const Vec3d size = info_.domain.upper - info_.domain.lower;
     row("dimensions", std::to_string(info_.dimensions));
-    row("domain", rounded(size.x) + " x " + (info_.dimensions == 3 ? rounded(size.y) + " x " : "") + rounded(size.z) + " m");
+    row("domain", rounded(size.x) + " × " + (info_.dimensions == 3 ? rounded(size.y) + " × " : "") + rounded(size.z) + " m");
     row("particle spacing dp", rounded(info_.dp) + " m");
     row("fluid particles at the start", format_number(static_cast<double>(info_.fluid_count)));
     if (info_.still_water_level) row("still-water level", rounded(*info_.still_water_level + info_.offset.z, 7) + " m");
     if (info_.has_case) {
-      row("fluid", rounded(info_.fluid_density()) + " kg/m3, " + rounded(info_.scene.fluid.kinematic_viscosity) + " m2/s");
+      row("fluid", rounded(info_.fluid_density()) + " kg/m³, " + rounded(info_.scene.fluid.kinematic_viscosity) + " m²/s");
       for (const Slide& s : info_.scene.slides) {
-        std::string text = s.kind + ", " + rounded(s.density) + " kg/m3";
+        std::string text = s.kind + ", " + rounded(s.density) + " kg/m³";
         if (s.kind == "granular") text += ", grains " + rounded(s.diameter) + " m, porosity " + rounded(s.porosity);
         row("slide \"" + s.name + "\"", text);
       }
@@ -172,6 +180,8 @@ class Report {
       models.row.push_back({name, std::string(model.value("on", false) ? "on" : "off"), model.value("what", std::string())});
     }
     page.table(models);
+    page.paragraph("Left out in every run: the air, surface tension, a turbulence closure, seepage and erosion of the ground, breaking of grains, and "
+                   "what released the slide.");
   }
 
   /// Error bar of one region from the runs at other resolutions; NaN when they do not converge.
@@ -189,15 +199,14 @@ class Report {
 
   void write_run_up(HtmlPage& page) {
     if (!run_up_) return;
-    page.heading("Run-up");
-    Table t{{"bank or region", "highest run-up [m]", "at t [s]", "x [m]", "y [m]", "z [m]", "reading +- [m]"}, {}};
+    Table t{{"bank or region", "highest run-up [m]", "reading ± [m]", "at t [s]", "x [m]", "y [m]", "z [m]"}, {}};
     const bool bars = report_.coarser.size() >= 2;
-    if (bars) t.column.insert(t.column.end(), {"convergence", "order", "extrapolated [m]", "error bar +- [m]"});
+    if (bars) t.column.insert(t.column.end(), {"convergence", "order", "extrapolated [m]", "error bar ± [m]"});
     for (const auto& m : run_up_->maxima()) {
       const double none = std::nan("");
-      std::vector<Cell> cells{m.region == "all" ? std::string("whole shore") : m.region, std::round(1e3 * m.height) / 1e3,
+      std::vector<Cell> cells{m.region == "all" ? std::string("whole shore") : m.region, std::round(1e2 * m.height) / 1e2, info_.dp,
                               m.climbs ? m.time : none, m.climbs ? std::round(10 * m.at.x) / 10 : none,
-                              m.climbs ? std::round(10 * m.at.y) / 10 : none, m.climbs ? std::round(100 * m.at.z) / 100 : none, info_.dp};
+                              m.climbs ? std::round(10 * m.at.y) / 10 : none, m.climbs ? std::round(10 * m.at.z) / 10 : none};
       if (bars) {
         const Convergence c = convergence_of(m.region, m.height);
         cells.insert(cells.end(), {to_string(c.kind), std::round(100 * c.order) / 100, std::round(1e3 * c.extrapolated) / 1e3, std::round(1e3 * c.error_bar) / 1e3});
@@ -208,7 +217,6 @@ class Report {
     page.paragraph("Run-up: highest point of the connected water on a bank above still water; at least one particle thick; splash is "
                    "counted apart. The reading resolves one particle spacing." +
                    std::string(bars ? " Error bar: grid convergence index (Celik et al. 2008) of the three finest runs." : ""));
-    page.figure(run_up_->figure(), "Run-up against time, and its maximum along the shore.");
   }
 
   void write_figures(HtmlPage& page) {
@@ -217,8 +225,9 @@ class Report {
       page.heading(heading);
       page.figure(m->figure(), caption);
     };
+    section(run_up_, "Run-up", "Run-up against time, and its maximum along the shore.");
     section(profile_, "Profiles", "Surfaces of water and slide along a section, at four times.");
-    section(map_, "Maps", "Highest water level and arrival time; black: outline of all that was ever wet.");
+    section(map_, "Maps", "Highest water level and arrival time.");
     section(gauge_, "Gauges", "Water level (and pressure) at the gauges.");
     section(slide_, "Slide", "Speed of the centre of mass, travel of the front, submerged share.");
     section(energy_, "Energy", "Energy by phase and kind, from the frames.");
@@ -227,15 +236,21 @@ class Report {
   void write_diagnostics(HtmlPage& page) {
     if (log_.name.empty()) return;
     page.heading("Diagnostics");
-    Table t{{"quantity", "first", "last", "smallest", "largest"}, {}};
-    for (const char* name : {"dt", "fluid_mass", "grain_mass", "fluid_kinetic", "grain_kinetic", "largest_speed", "mach",
-                             "largest_density_error", "largest_overlap", "lost_fluid", "lost_grains"}) {
-      const auto* column = log_.find(name);
+    Table t{{"quantity", "unit", "first", "last", "smallest", "largest"}, {}};
+    const char* const quantities[][3] = {
+        {"fluid_mass", "mass of the water", "kg"}, {"grain_mass", "mass of the grains", "kg"}, {"fluid_momentum", "momentum of the water, magnitude", "kg m/s"},
+        {"grain_momentum", "momentum of the grains, magnitude", "kg m/s"}, {"fluid_kinetic", "kinetic energy of the water", "J"},
+        {"fluid_elastic", "elastic energy of the water", "J"}, {"grain_kinetic", "kinetic energy of the grains", "J"},
+        {"largest_speed", "largest speed of the water", "m/s"}, {"largest_grain_speed", "largest speed of a grain", "m/s"}, {"mach", "Mach number", "1"},
+        {"largest_density_error", "largest density error", "1"}, {"largest_overlap", "worst overlap of two grains over their diameter", "1"},
+        {"lost_fluid", "water particles lost", "1"}, {"lost_grains", "grains lost", "1"}, {"dt", "time step", "s"}};
+    const auto four = [](double v) { return std::stod(rounded(v, 4)); };
+    for (const auto& q : quantities) {
+      const auto* column = log_.find(q[0]);
       if (!column || column->empty()) continue;
       const auto [low, high] = std::minmax_element(column->begin(), column->end());
-      std::string label = name;
-      std::replace(label.begin(), label.end(), '_', ' ');
-      t.row.push_back({label, column->front(), column->back(), *low, *high});
+      if (*high == 0.0 && *low == 0.0 && std::string(q[0]).find("grain") != std::string::npos && !has_solids()) continue;
+      t.row.push_back({std::string(q[1]), std::string(q[2]), four(column->front()), four(column->back()), four(*low), four(*high)});
     }
     page.table(t);
     const auto* time = log_.find("t");

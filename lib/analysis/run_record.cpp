@@ -2,6 +2,7 @@
 #include "analysis/run_record.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <limits>
 
@@ -45,6 +46,18 @@ const std::vector<double>* RunLog::find(const std::string& wanted) const {
   return it == name.end() ? nullptr : &value[static_cast<std::size_t>(it - name.begin())];
 }
 
+namespace {
+
+bool is_vector(const nlohmann::ordered_json& item) {
+  return item.is_array() && item.size() == 3 && item[0].is_number() && item[1].is_number() && item[2].is_number();
+}
+
+double magnitude(const nlohmann::ordered_json& v) {
+  return std::hypot(v[0].get<double>(), v[1].get<double>(), v[2].get<double>());
+}
+
+}  // namespace
+
 RunLog read_run_log(const std::string& run_folder) {
   RunLog log;
   std::ifstream in(run_folder + "/log.ndjson");
@@ -54,14 +67,14 @@ RunLog read_run_log(const std::string& run_folder) {
     if (!record.is_object()) continue;
     ++lines;
     for (const auto& [key, item] : record.items()) {
-      if (!item.is_number()) continue;
+      if (!item.is_number() && !is_vector(item)) continue;
       auto it = std::find(log.name.begin(), log.name.end(), key);
       if (it == log.name.end()) {
         log.name.push_back(key);
         log.value.emplace_back(lines - 1, std::numeric_limits<double>::quiet_NaN());
         it = log.name.end() - 1;
       }
-      log.value[static_cast<std::size_t>(it - log.name.begin())].push_back(item.get<double>());
+      log.value[static_cast<std::size_t>(it - log.name.begin())].push_back(item.is_number() ? item.get<double>() : magnitude(item));
     }
     for (auto& column : log.value) column.resize(lines, std::numeric_limits<double>::quiet_NaN());
   }

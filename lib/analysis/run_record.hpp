@@ -20,7 +20,7 @@ struct RunRecord {
 /// nullopt without a run.json; throws Error(input) when it is no JSON object.
 std::optional<RunRecord> read_run_record(const std::string& run_folder);
 
-/// The log's numbers, by name: one value per line, NaN where a line lacks it. Empty without a log. A last line cut
+/// The log's numbers, by name: one value per line, NaN where a line lacks it; of a vector its magnitude. Empty without a log. A last line cut
 /// short by a running solver is left out.
 struct RunLog {
   std::vector<std::string> name;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "core/error.hpp"
@@ -61,8 +62,10 @@ void RunUpMeasurement::choose_line() {
 }
 
 void RunUpMeasurement::add(FrameView& view, const RowSink& emit) {
-  const RunUpFrame f = measure_run_up(view.grid(), view.connected(options_.rule.connectivity),
-                                      {info_.dp, still_, options_.rule.contact * info_.dp}, walls_, regions_);
+  const ConnectedWater connected = view.connected(options_.rule.connectivity);
+  most_torn_ = std::max(most_torn_, connected.torn);
+  const RunUpFrame f = measure_run_up(view.grid(), connected, {info_.dp, still_, options_.rule.contact * info_.dp}, walls_,
+                                      regions_);
   time_.push_back(view.time());
   profile_->add(view.time(), f.on_bank, regions_[profile_region_]);
   const double none = std::numeric_limits<double>::quiet_NaN();
@@ -153,16 +156,17 @@ Figure RunUpMeasurement::figure() const {
 }
 
 std::string RunUpMeasurement::summary() const {
+  const auto shown = [](double metres) {  // three digits: more than the reading resolves
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", metres);
+    return std::string(text);
+  };
   std::string text;
   for (const Maximum& m : maximum_) {
     text += (text.empty() ? "" : "; ") + (m.region == "all" ? std::string("highest run-up") : m.region) + " ";
-    if (!m.climbs) {
-      text += "none";
-      continue;
-    }
-    text += format_number(std::round(m.height * 1e3) / 1e3) + " m at t = " + format_number(m.time) + " s";
+    text += m.climbs ? shown(m.height) + " m at t = " + format_number(m.time) + " s" : "none";
   }
-  return text + " (resolution " + format_number(info_.dp) + " m)";
+  return text + " (reading resolves " + format_number(info_.dp) + " m)";
 }
 
 }  // namespace gdesp::analysis

@@ -28,6 +28,7 @@ class RunUpMeasurement : public Measurement {
   struct Maximum { std::string region; double height = 0.0, time = 0.0; Vec3d at; bool climbs = false; };
   const std::vector<Maximum>& maxima() const { return maximum_; }
   const ShoreProfile& shore() const { return *profile_; }
+  std::size_t most_torn() const { return most_torn_; }  ///< largest number of torn particles in a frame (connected_water.hpp)
 
  private:
   void choose_line();
@@ -45,6 +46,7 @@ class RunUpMeasurement : public Measurement {
   std::vector<double> time_;
   std::vector<std::vector<double>> height_, splash_;  // per region
   std::vector<Maximum> maximum_;
+  std::size_t most_torn_ = 0;
 };
 
 }  // namespace gdesp::analysis

@@ -137,6 +137,10 @@ int run_measurement(const CommandLine& line, analysis::Measurement& measurement)
     cli::info("plot: " + line.get<std::string>("plot"));
   }
   if (cli::interrupted()) return 130;
+  if (source.cut_short()) {
+    cli::warning("the records ended without the producer's last word (done, interrupted or failed): it was killed; the table ends with its last frame");
+    return static_cast<int>(ErrorKind::numerical);
+  }
   if (!source.failed()) return 0;
   cli::warning("the run failed" + (source.failure().empty() ? "" : ": " + source.failure()) + "; the table ends with its last frame");
   return static_cast<int>(ErrorKind::numerical);

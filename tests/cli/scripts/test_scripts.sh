@@ -59,6 +59,18 @@ for name in build test demo format; do
   check "$name: a wrong option is named" has "$err" "'--no-such-option'"
   check "$name: a wrong option leaves stdout empty" is "$out" ""
 done
+for name in tradeoff paper-figures; do
+  run "$root/scripts/$name" --help
+  check "$name --help ends with 0" is "$status" 0
+  check "$name --help ends with an example" has "${out##*$'\n'}" "example: scripts/$name"
+  run "$root/scripts/$name" --no-such-option
+  check "$name: a wrong option ends with 2" is "$status" 2
+  check "$name: a wrong option is named" has "$err" "--no-such-option"
+done
+run "$root/scripts/tradeoff" --case nothing
+check "tradeoff: a case that it does not chart ends with 2" is "$status" 2
+run "$root/scripts/paper-figures" fig99
+check "paper-figures: an unknown figure is answered by the list" has "$err" "there are fig7"
 run "$root/scripts/build" --build-dir
 check "an option without its value ends with 2" is "$status" 2
 check "an option without its value is named" has "$err" "--build-dir needs a value"

@@ -12,10 +12,27 @@ if command -v gdalinfo >/dev/null; then
   grep -q "Origin = (567848" info || fail "map is not in place: $(grep Origin info)"
   near "$(sed -n 's/.*STATISTICS_MAXIMUM=//p' info)" 2137.9 8 "highest level"
 fi
+# A cell of the map, by GDAL at its place on the ground, and the line's place and height.
+if command -v gdallocationinfo >/dev/null; then
+  at() { gdallocationinfo -valonly -geoloc "maps/v_$1.tif" "$2" "$3"; }
+  near "$(at level_max 568040 5120080)" 2131 4 "level at x = 40 m, t = 5 s: 2095 + 30 + 6 (dp = 8 m)"
+  near "$(at depth_max 568004 5120080)" 28.6 4 "depth at x = 4 m: 30.6 - 2"
+  near "$(at arrival 568068 5120080)" 5 1e-6 "arrival on the far bank: the frame at 5 s"
+  [ "$(at level_max 568130 5120080)" = -9999 ] || fail "dry ground has a level: $(at level_max 568130 5120080)"
+fi
+if command -v ogrinfo >/dev/null; then
+  ogrinfo -al -so maps/v_run_up_line.geojson >info || fail "GDAL does not open the run-up line"
+  says info "Line String"
+  awk -F'[(, )]+' '/^Extent/{exit !($2>567900&&$2<567960&&$4>568070&&$4<568100)}' info || fail "run-up line is not in place: $(grep Extent info)"
+fi
 valid_json maps/v_run_up_line.geojson
 grep -q '567\|568' maps/v_run_up_line.geojson || fail "run-up line is not in the terrain's coordinates"
 check "ESRI ASCII" 0 "$ANALYZE" map v.run -o maps/a --ascii --cell 16 --plot maps/a.png
 says maps/a_arrival.asc "cellsize     16"
+if command -v gdalinfo >/dev/null; then
+  gdalinfo maps/a_level_max.asc >info || fail "GDAL does not open the ESRI ASCII map"
+  grep -q "Origin = (567840" info || fail "ESRI ASCII map is not in place: $(grep Origin info)"
+fi
 [ -s maps/a.png ] || fail "no plot of the map"
 
 check "surface" 0 "$ANALYZE" surface v.run -o s --vdb --every 4
@@ -42,6 +59,15 @@ near "$(column out rms)" 0.1 1e-6 "RMS"
 near "$(column out bias)" 0 1e-6 "bias"
 near "$(column out 'inside_band[%]')" 50 1e-6 "inside the band"
 "$ANALYZE" front v.run 2>/dev/null | "$ANALYZE" compare - reference.csv --y x_tip --ref-x time --ref-y place >out 2>err || fail "compare from a pipe"
+
+"$ANALYZE" front v.run --quiet >f.tsv
+check "plot" 0 "$ANALYZE" plot f.tsv f.tsv --x t --y x_front --y x_tip --label one --label two --reference ours.csv --ref-x t --ref-y x --plot o.svg
+[ "$(column out curve | sed -n 2p)" = "one, x_tip" ] || fail "curves of plot: $(column out curve | tr '\n' ' ')"
+[ "$(awk 'END{print NR}' out)" = 7 ] || fail "plot draws $(awk 'END{print NR}' out) curves"
+check "plot by a column" 0 "$ANALYZE" plot ours.csv --x t --y x --by 't[s]' --points --plot o.pdf
+[ "$(column out curve | head -1)" = "t = 0" ] || fail "curves by a column: $(column out curve | tr '\n' ' ')"
+check "plot without a column" 3 "$ANALYZE" plot ours.csv --x t --y nothing --plot o.svg
+check "plot without --plot" 2 "$ANALYZE" plot ours.csv --x t --y x
 
 printf 'dp,value\n4,1.16\n2,1.04\n1,1.01\n' >runs.csv
 check "converge" 0 "$ANALYZE" converge --table runs.csv --value value --plot g.svg

@@ -27,6 +27,46 @@ for file in f.vtk f.vtu; do
   check "$file without --still-water" 3 "$ANALYZE" runup $file --dp 0.1
   says err "--still-water"
 done
+# Binary legacy VTK with the names and the big-endian order of DualSPHysics' PartVTK, and VTP as ParaView saves it (appended, base64)
+# with the names of SPHinXsys.
+python3 - <<'END'
+import base64, struct
+n = 500
+points = [c for k in range(5) for j in range(10) for i in range(10) for c in (0.05 + 0.1 * i, 0.05 + 0.1 * j, 0.05 + 0.1 * k)]
+pack = lambda kind, values: struct.pack(">%d%s" % (len(values), kind), *values)
+with open("dual.vtk", "wb") as f:
+    f.write(b"# vtk DataFile Version 3.0\nvtk output\nBINARY\nDATASET POLYDATA\nPOINTS %d float\n" % n + pack("f", points))
+    f.write(b"\nVERTICES %d %d\n" % (n, 2 * n) + pack("i", [v for i in range(n) for v in (1, i)]))
+    f.write(b"\nPOINT_DATA %d\nSCALARS Idp unsigned_int\nLOOKUP_TABLE default\n" % n + pack("I", range(n)))
+    f.write(b"\nVECTORS Vel float\n" + pack("f", [2.0, 0.0, 0.0] * n))
+    f.write(b"\nSCALARS Rhop float\nLOOKUP_TABLE default\n" + pack("f", [1000.0] * n) + b"\n")
+blocks, offset, data = [], 0, ""
+def block(kind, values):
+    global offset, data
+    raw = struct.pack("<%d%s" % (len(values), kind), *values)
+    text = (base64.b64encode(struct.pack("<I", len(raw)) + raw)).decode()
+    here, offset, data = offset, offset + len(text), data + text
+    return here
+array = lambda kind, name, width, at: '<DataArray type="%s" Name="%s" NumberOfComponents="%d" format="appended" offset="%d"/>' % (kind, name, width, at)
+p = array("Float32", "Position", 3, block("f", points))
+v = array("Float32", "Velocity", 3, block("f", [2.0, 0.0, 0.0] * n))
+i = array("UInt32", "OriginalID", 1, block("I", range(n)))
+with open("sphinxsys.vtp", "w") as f:
+    f.write('<?xml version="1.0"?>\n<VTKFile type="PolyData" version="0.1" byte_order="LittleEndian"><PolyData><Piece NumberOfPoints="%d" '
+            'NumberOfVerts="0" NumberOfLines="0" NumberOfStrips="0" NumberOfPolys="0"><Points>%s</Points><PointData>%s%s</PointData></Piece>'
+            '</PolyData><AppendedData encoding="base64">_%s</AppendedData></VTKFile>\n' % (n, p, v, i, data))
+END
+for file in "dual.vtk --field velocity=Vel --field density=Rhop" "sphinxsys.vtp --field velocity=Velocity"; do
+  # shellcheck disable=SC2086
+  check "$file, energy" 0 "$ANALYZE" energy $file --dp 0.1
+  near "$(column out 'water_kinetic[J]')" 1000 1e-3 "$file: kinetic energy, 500 kg at 2 m/s"
+  # shellcheck disable=SC2086
+  check "$file, front" 0 "$ANALYZE" front $file --dp 0.1
+  near "$(column out 'x_tip[m]')" 1 1e-5 "$file: front"
+done
+check "a field that is not there" 3 "$ANALYZE" energy dual.vtk --field velocity=Velocity --dp 0.1
+says err "Velocity"
+
 check "several files" 0 "$ANALYZE" front f.vtk f.vtu --dp 0.1 --frame-interval 0.5
 [ "$(column out 't[s]' | tr '\n' ' ')" = "0 0.5 " ] || fail "times of several files: $(column out 't[s]' | tr '\n' ' ')"
 finish

@@ -20,10 +20,11 @@ for _ in $(seq 100); do
   sleep 0.1
 done
 [ "$(awk 'NR>1' live.tsv | wc -l)" -ge 2 ] || fail "no row while the producer runs"
+tail -1 records.ndjson >&3
 exec 3>&-
 wait "$reader" || fail "reader's exit code $?"
 
-{ head -2 records.ndjson; echo '{"record":"weather","sunny":true}'; echo; sed -n 3p records.ndjson; } >mixed
+{ head -2 records.ndjson; echo '{"record":"weather","sunny":true}'; echo; sed -n 3p records.ndjson; tail -1 records.ndjson; } >mixed
 check "unknown records" 0 "$ANALYZE" runup - <mixed
 [ "$(column out 't[s]' | sort -u | wc -l)" = 3 ] || fail "unknown records disturb"
 
@@ -32,6 +33,15 @@ check "failed run" 4 "$ANALYZE" runup - --plot p.svg <failed
 [ "$(column out 't[s]' | sort -u | wc -l)" = 2 ] || fail "the table of a failed run is not finished"
 says err "particle 3 is not finite"
 [ -s p.svg ] || fail "the plot of a failed run is missing"
+
+# A producer that is killed says no last word: the table of what it left, a warning, and exit code 4.
+head -3 records.ndjson >killed
+check "killed producer" 4 "$ANALYZE" runup - --plot k.svg <killed
+[ "$(column out 't[s]' | sort -u | wc -l)" = 3 ] || fail "the table of a killed run is not finished"
+says err "it was killed"
+[ -s k.svg ] || fail "the plot of a killed run is missing"
+{ cat killed; echo '{"record":"interrupted","t":2}'; } >interrupted
+check "interrupted producer" 0 "$ANALYZE" runup - <interrupted
 
 check "nothing" 3 "$ANALYZE" runup - </dev/null
 says err "without a frame record"

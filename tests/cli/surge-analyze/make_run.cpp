@@ -142,6 +142,7 @@ int main(int argc, char** argv) {
                   p.fluid.c_str(), p.fluid.c_str(), p.grains.c_str(), argv[1], frame.time, static_cast<long long>(frame.step));
       std::fflush(stdout);
     }
+    std::printf("{\"record\":\"done\",\"run\":\"%s\",\"case\":\"%s\",\"t\":20}\n", argv[2], argv[1]);
     return 0;
   } catch (const Error& e) {
     return std::fprintf(stderr, "make_run: %s\n", e.what()), e.exit_code();
