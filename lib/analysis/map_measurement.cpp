@@ -138,9 +138,9 @@ Figure MapMeasurement::figure() const {
   const double missing = std::numeric_limits<double>::quiet_NaN();
   Series ground, outline;  // all lines of a kind in one series, with gaps between
   ground.style = MarkStyle::thin, ground.colour = 7;
-  outline.style = MarkStyle::line, outline.colour = 6, outline.label = "outline of all that was ever wet";
+  outline.style = MarkStyle::line, outline.colour = 6;
   Series lake;
-  lake.style = MarkStyle::dashes, lake.colour = 0, lake.label = "water's edge at the start";
+  lake.style = MarkStyle::dashes, lake.colour = 0;
   const auto join = [&](Series& s, const auto& line) {
     for (const auto& p : line) s.x.push_back(p.x + info_.offset.x), s.y.push_back(p.y + info_.offset.y);
     s.x.push_back(missing), s.y.push_back(missing);
@@ -160,6 +160,7 @@ Figure MapMeasurement::figure() const {
     m.value = r.value;
     for (float& v : m.value) v += static_cast<float>(up);
     m.overlay = {ground, outline, lake};
+    m.note = "black: outline of all that was ever wet; blue dashes: water's edge at the start; grey: contours of the ground";
     figure.map.push_back(std::move(m));
   };
   add("Highest water level", "elevation (m)", level_, info_.offset.z);

@@ -155,7 +155,7 @@ class Painter {
     if (!frame_.grains.position.empty() || !frame_.bodies.triangle.empty()) small += "   ·   orange: slide";
     if (info_.still_water_level && has_terrain()) small += "   ·   blue line: still-water shore";
     if (options_.vertical_exaggeration != 1.0) small += "   ·   heights x " + format_number(options_.vertical_exaggeration);
-    put_text(renderer_, small, 0.02, 0.022, 18);
+    put_text(renderer_, small, 0.02, 0.862, 18);
   }
 
   // Where the camera stands: on the far side of the lake, turned a little, so that the slide and both banks show.

@@ -153,9 +153,8 @@ void add_plinth(const PictureScene& scene, vtkPolyData* terrain, const double* r
   mapper->SetInputData(triangles_to_vtk(vertex, triangle));
   mapper->ScalarVisibilityOff();
   auto actor = put(scene, mapper);
-  actor->GetProperty()->SetColor(0.60, 0.57, 0.52);
-  actor->GetProperty()->SetAmbient(0.45);
-  actor->GetProperty()->SetDiffuse(0.5);
+  actor->GetProperty()->SetColor(0.66, 0.63, 0.58);
+  actor->GetProperty()->SetLighting(false);
 }
 
 void add_terrain(const PictureScene& scene, vtkPolyData* data) {

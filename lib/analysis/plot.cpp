@@ -202,7 +202,7 @@ double tick_step(double range) {
   return 10.0 * unit;
 }
 
-void write_map(std::ostream& out, const ColourMap& m, int index, double width_mm) {
+void write_map(std::ostream& out, const ColourMap& m, int index) {
   out << "$m" << index << " << EOD\n";
   for (int iy = 0; iy < m.ny; ++iy) {
     for (int ix = 0; ix < m.nx; ++ix) {
@@ -211,12 +211,11 @@ void write_map(std::ostream& out, const ColourMap& m, int index, double width_mm
     }
     out << '\n';
   }
-  out << "EOD\nset title " << quoted(m.title) << "\nset xlabel " << quoted(m.x_label) << "\nset ylabel "
+  out << "EOD\nset title " << quoted("{/*1.08 " + m.title + "}" + (m.note.empty() ? "" : "\n{/*0.82 " + m.note + "}")) << "\nset xlabel " << quoted(m.x_label) << "\nset ylabel "
       << quoted(m.y_label) << "\nset cblabel " << quoted(m.value_label) << " offset 1.6,0\nset format cb '%g'"
-      << "\nset rmargin 12\nunset logscale\nset size ratio -1\nset format x '%.7g'\nset format y '%.7g'\nset style fill solid 1 noborder\nset xtics " << tick_step(m.nx * m.dx) << "\n";
+      << "\nset rmargin 12\nunset key\nunset bmargin\nunset logscale\nset size ratio -1\nset format x '%.7g'\nset format y '%.7g'\nset style fill solid 1 noborder\nset xtics " << tick_step(m.nx * m.dx) << "\n";
   out << "set xrange [" << m.x0 - 0.5 * m.dx << ":" << m.x0 + (m.nx - 0.5) * m.dx << "]\nset yrange ["
       << m.y0 - 0.5 * m.dx << ":" << m.y0 + (m.ny - 0.5) * m.dx << "]\n";
-  write_legend(out, m.overlay, width_mm);
   for (std::size_t k = 0; k < m.overlay.size(); ++k) {
     write_block(out, "m" + std::to_string(index) + "s" + std::to_string(k), m.overlay[k]);
   }
@@ -259,7 +258,7 @@ std::string script(const Figure& f, const std::string& kind, const std::string& 
   const auto legend_mm = [&](const std::vector<Series>& s) { return 5.2 * static_cast<double>(legend_rows(s, legend_columns(s, f.width_mm))); };
   std::vector<double> heights;
   for (const Panel& p : panel) heights.push_back(f.panel_height_mm + legend_mm(p.series));
-  for (const ColourMap& m : f.map) heights.push_back(1.4 * f.panel_height_mm + legend_mm(m.overlay));
+  for (const ColourMap& m : f.map) heights.push_back(1.4 * f.panel_height_mm + (m.note.empty() ? 0.0 : 5.0));
   double height = f.title.empty() ? 0.0 : 9.0;
   for (const double h : heights) height += h;
   out << terminal(kind, f.width_mm, height) << "set output " << quoted(output) << "\n";
@@ -272,7 +271,7 @@ std::string script(const Figure& f, const std::string& kind, const std::string& 
     top -= heights[k];
     if (several) out << "set origin 0," << top / height << "\nset size noratio 1," << heights[k] / height << "\n";
     if (k < panel.size()) write_panel(out, panel[k], static_cast<int>(k), f.width_mm);
-    else write_map(out, f.map[k - panel.size()], static_cast<int>(k - panel.size()), f.width_mm);
+    else write_map(out, f.map[k - panel.size()], static_cast<int>(k - panel.size()));
   }
   if (several) out << "unset multiplot\n";
   out << "unset output\n";

@@ -33,10 +33,11 @@ struct Panel {
 /// A coloured map: value(ix, iy) at x0 + ix dx, y0 + iy dx; NaN stays white.
 struct ColourMap {
   std::string title, x_label, y_label, value_label;
+  std::string note;               ///< small print under the title
   double x0 = 0, y0 = 0, dx = 1;
   int nx = 0, ny = 0;
   std::vector<float> value;
-  std::vector<Series> overlay;    ///< lines on top; those with a label are named below the map
+  std::vector<Series> overlay;    ///< lines on top; named in the note
 };
 
 struct Figure {

@@ -90,7 +90,7 @@ void SlideMeasurement::add(FrameView& view, const RowSink& emit) {
 
 Figure SlideMeasurement::figure() const {
   Figure figure;
-  figure.panel_height_mm = 58.0;
+  figure.panel_height_mm = 64.0;
   const auto panel = [&](const std::string& title, const std::string& label, const std::vector<double>& y, int colour) {
     Panel p;
     p.title = title;

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/water_sheet.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "analysis/wall_surface.hpp"
 
 namespace gdesp::analysis {
 namespace {
@@ -37,6 +40,18 @@ std::vector<float> speeds_at(FrameView& view, const Raster& level) {
   return speed;
 }
 
+// Ground at every cell.
+std::vector<float> ground_at(const RunInfo& info, const Raster& shape) {
+  const WallSurface walls(info.walls);
+  std::vector<float> ground(shape.value.size(), none);
+#pragma omp parallel for schedule(dynamic, 256)
+  for (std::size_t k = 0; k < ground.size(); ++k) {
+    const auto z = walls.height(shape.x(static_cast<int>(k % shape.nx)), shape.y(static_cast<int>(k / shape.nx)));
+    if (z) ground[k] = static_cast<float>(*z);
+  }
+  return ground;
+}
+
 // One ring of cells outwards: dry cells beside wet ones take the mean of those.
 void extend(const Raster& shape, std::vector<float>& value) {
   const std::vector<float> before = value;
@@ -67,6 +82,8 @@ WaterSheet make_water_sheet(FrameView& view, double cell) {
   Raster level = make_raster(grid.lower() - Vec3d{edge, edge, 0}, grid.upper() + Vec3d{edge, edge, 0}, cell, 3);
   fill_surface_levels(view.water(), level);
   std::vector<float> speed = speeds_at(view, level);
+  const std::vector<float> measured = level.value, ground = ground_at(view.info(), level);
+  const float depth = static_cast<float>(0.5 * view.info().dp);
   for (double done = 0.0; done < margin * view.info().dp; done += cell) {
     extend(level, level.value);
     extend(level, speed);
@@ -74,7 +91,9 @@ WaterSheet make_water_sheet(FrameView& view, double cell) {
   const bool moving = view.frame().fluid.velocity.size() == view.frame().fluid.position.size();
   std::vector<std::int32_t> number(level.value.size(), -1);
   for (std::size_t k = 0; k < number.size(); ++k) {
-    if (!std::isfinite(level.value[k])) continue;
+    // Past the particles only where the ground comes up: not over a dam's crest, nor where the water has drawn back.
+    const bool wet = std::isfinite(measured[k]), shore = std::isfinite(level.value[k]) && ground[k] > level.value[k] - depth;
+    if (!wet && !shore) continue;
     number[k] = static_cast<std::int32_t>(sheet.vertex.size());
     sheet.vertex.push_back({level.x(static_cast<int>(k % level.nx)), level.y(static_cast<int>(k / level.nx)), level.value[k]});
     if (moving) sheet.speed.push_back(std::isfinite(speed[k]) ? speed[k] : 0.0f);

@@ -56,12 +56,23 @@ std::string told(const std::string& messages) {
   return text.empty() ? "it is damaged" : text;
 }
 
+// A legacy file names one array of a kind as the one to be read; others stand beside it.
+void read_all_arrays(vtkDataSetReader& reader) {
+  reader.ReadAllScalarsOn();
+  reader.ReadAllVectorsOn();
+  reader.ReadAllNormalsOn();
+  reader.ReadAllTensorsOn();
+  reader.ReadAllFieldsOn();
+}
+void read_all_arrays(vtkXMLReader&) {}
+
 template <class Reader>
 vtkSmartPointer<vtkPointSet> read_file(const std::string& path) {
   const vtkNew<MessageCatcher> catcher;
   vtkOutputWindow::SetInstance(catcher);
   const vtkNew<Reader> reader;
   reader->SetFileName(path.c_str());
+  read_all_arrays(*reader);
   reader->Update();
   const vtkSmartPointer<vtkPointSet> data = vtkPointSet::SafeDownCast(reader->GetOutput());
   if (reader->GetErrorCode() != 0 || !catcher->messages.empty())

@@ -118,7 +118,6 @@ class Curves {
       analysis::Series s = series_of(table, x, y, style, by, value);
       const std::string which = by.empty() ? "" : by.substr(0, by.find('[')) + " = " + value;
       s.label = by.empty() ? label.text : label.alone ? which : label.text + ", " + which;
-      s.label = analysis::plain_text(s.label);
       s.colour = static_cast<int>(series_.size() % 6);  // black and grey are the measurements'
       series_.push_back(std::move(s));
     }
@@ -132,7 +131,7 @@ class Curves {
       const analysis::Table table = choose_rows(analysis::read_table(path), texts("ref-where"), "--ref-where");
       for (const std::string& column : y) {
         analysis::Series s = series_of(table, x, column, {analysis::MarkStyle::points, ""});
-        s.label = analysis::plain_text(number < labels.size() ? labels[number] : base_name(path));
+        s.label = number < labels.size() ? labels[number] : base_name(path);
         s.colour = 6 + static_cast<int>(number % 2);
         series_.push_back(std::move(s));
         ++number;
@@ -193,6 +192,7 @@ int run_plot(const std::vector<std::string>& arguments) {
   set_range(line, "x-range", panel.x_low, panel.x_high);
   set_range(line, "y-range", panel.y_low, panel.y_high);
   print(panel.series, line);
+  for (analysis::Series& s : panel.series) s.label = analysis::plain_text(s.label);
   analysis::Figure figure;
   figure.panel.push_back(std::move(panel));
   figure.panel_height_mm = line.get<double>("height");

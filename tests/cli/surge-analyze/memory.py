@@ -3,7 +3,7 @@
 """Memory of an analysis: that of the frames at hand, whatever the length of the run.
 
 usage: memory.py SURGE_ANALYZE MAKE_RUN [DP [FRAMES]]
-DP m of the test valley (default 2: about 36,000 particles; 0.66: a million), FRAMES of the long run (default 10).
+DP m of the test valley (default 3: about 11,000 particles; 0.66: a million), FRAMES of the long run (default 10).
 A run of 2 frames and one of FRAMES are analysed: the peak memory of the long one may be 10 % (and 4 MB) larger, no
 more. Prints time and memory of each command. Exit status 1 when that is not so.
 """
@@ -28,7 +28,7 @@ def measure(command):
 
 def main():
     analyze, make_run = sys.argv[1:3]
-    dp = sys.argv[3] if len(sys.argv) > 3 else "2"
+    dp = sys.argv[3] if len(sys.argv) > 3 else "3"
     frames = int(sys.argv[4]) if len(sys.argv) > 4 else 10
     work = tempfile.mkdtemp(prefix="surge-analyze-memory.")
     failures = 0
