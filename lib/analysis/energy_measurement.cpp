@@ -131,8 +131,14 @@ std::string EnergyMeasurement::summary() const {
   if (time_.empty()) return {};
   double kinetic = 0.0;
   for (const double v : value_[0]) kinetic = std::max(kinetic, v);
-  char text[120];
-  std::snprintf(text, sizeof text, "largest kinetic energy of the water %.4g J, lost at the end %.4g J", kinetic, value_[7].back());
+  // In the prefix of the largest: 54.6 GJ.
+  const char* const prefix[] = {"", "k", "M", "G", "T", "P"};
+  const double largest = std::max(kinetic, std::abs(value_[7].back()));
+  const int order = largest >= 1e3 ? std::min(5, static_cast<int>(std::log10(largest) / 3.0)) : 0;
+  const double unit = std::pow(10.0, 3 * order);
+  char text[160];
+  std::snprintf(text, sizeof text, "largest kinetic energy of the water %.3g %sJ, of the first total energy %.3g %sJ are lost at the end", kinetic / unit,
+                prefix[order], value_[7].back() / unit, prefix[order]);
   return text;
 }
 

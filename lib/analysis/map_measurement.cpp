@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "analysis/wall_surface.hpp"
@@ -171,9 +172,10 @@ Figure MapMeasurement::figure() const {
 std::string MapMeasurement::summary() const {
   std::size_t wet = 0, before = 0;
   for (std::size_t k = 0; k < level_.value.size(); ++k) wet += std::isfinite(level_.value[k]), before += std::isfinite(first_.value[k]);
-  const double area = level_.dx * level_.dx;
-  return "reached " + format_number(static_cast<double>(wet) * area) + " m2, of which " +
-         format_number(static_cast<double>(before) * area) + " m2 were lake";
+  const double area = level_.dx * level_.dx * 1e-6;
+  char text[160];
+  std::snprintf(text, sizeof text, "the water reached %.4g km2, of which %.4g km2 were lake at the start", area * static_cast<double>(wet), area * static_cast<double>(before));
+  return text;
 }
 
 }  // namespace gdesp::analysis

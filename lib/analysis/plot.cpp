@@ -148,15 +148,19 @@ std::size_t legend_rows(const std::vector<Series>& series, std::size_t columns) 
   return (named + columns - 1) / columns;
 }
 
-// The legend below the axis, columns as wide as its longest name needs.
-std::size_t legend_columns(const std::vector<Series>& series, double width_mm) {
+struct Page { double width_mm; bool svg; };
+
+// The legend below the axis, columns as wide as its longest name needs. gnuplot measures text by its own guess, which is
+// wide for SVG, and would rather break a row than pass the margin.
+std::size_t legend_columns(const std::vector<Series>& series, const Page& page) {
   std::size_t longest = 1;
   for (const Series& s : series) longest = std::max(longest, s.label.size());
-  return std::clamp<std::size_t>(static_cast<std::size_t>(width_mm / (18.0 + 1.9 * static_cast<double>(longest))), 1, 4);
+  const double column_mm = page.svg ? 22.0 + 2.9 * static_cast<double>(longest) : 18.0 + 1.9 * static_cast<double>(longest);
+  return std::clamp<std::size_t>(static_cast<std::size_t>(page.width_mm / column_mm), 1, 4);
 }
 
-void write_legend(std::ostream& out, const std::vector<Series>& series, double width_mm) {
-  const std::size_t columns = legend_columns(series, width_mm), rows = legend_rows(series, columns);
+void write_legend(std::ostream& out, const std::vector<Series>& series, const Page& page) {
+  const std::size_t columns = legend_columns(series, page), rows = legend_rows(series, columns);
   if (rows == 0) out << "unset key\nset bmargin 3.6\n";
   else out << "set key bmargin center horizontal maxcols " << columns << " maxrows " << rows << " noopaque\nset bmargin " << 4.4 + 1.3 * static_cast<double>(rows) << "\n";
 }
@@ -168,7 +172,7 @@ bool has_numbers(const Series& s) {
   return false;
 }
 
-void write_panel(std::ostream& out, const Panel& p, int index, double width_mm) {
+void write_panel(std::ostream& out, const Panel& p, int index, const Page& page) {
   const std::string small_print = p.note.empty() ? "" : "\n{/*0.82 " + p.note + "}";
   out << "set title " << quoted((p.title.empty() ? "" : "{/*1.08 " + p.title + "}") + small_print) << " offset 0,-0.3\nset xlabel " << quoted(p.x_label)
       << "\nset ylabel " << quoted(p.y_label) << "\n"
@@ -182,7 +186,7 @@ void write_panel(std::ostream& out, const Panel& p, int index, double width_mm) 
   else write_range(out, "x", x, p.log_x, false);
   if (std::isfinite(p.y_low) && std::isfinite(p.y_high)) out << "set yrange [" << p.y_low << ":" << p.y_high << "]\n";
   else write_range(out, "y", y, p.log_y, p.reverse_y);
-  write_legend(out, p.series, width_mm);
+  write_legend(out, p.series, page);
   std::string command;
   for (std::size_t k = 0; k < p.series.size(); ++k) {
     const std::string block = "p" + std::to_string(index) + "s" + std::to_string(k);
@@ -255,7 +259,8 @@ std::string script(const Figure& f, const std::string& kind, const std::string& 
   std::ostringstream out;
   out.precision(10);
   const std::vector<Panel> panel = aligned(f.panel);
-  const auto legend_mm = [&](const std::vector<Series>& s) { return 5.2 * static_cast<double>(legend_rows(s, legend_columns(s, f.width_mm))); };
+  const Page page{f.width_mm, kind == ".svg"};
+  const auto legend_mm = [&](const std::vector<Series>& s) { return 5.2 * static_cast<double>(legend_rows(s, legend_columns(s, page))); };
   std::vector<double> heights;
   for (const Panel& p : panel) heights.push_back(f.panel_height_mm + legend_mm(p.series));
   for (const ColourMap& m : f.map) heights.push_back(1.4 * f.panel_height_mm + (m.note.empty() ? 0.0 : 5.0));
@@ -270,7 +275,7 @@ std::string script(const Figure& f, const std::string& kind, const std::string& 
   for (std::size_t k = 0; k < heights.size(); ++k) {
     top -= heights[k];
     if (several) out << "set origin 0," << top / height << "\nset size noratio 1," << heights[k] / height << "\n";
-    if (k < panel.size()) write_panel(out, panel[k], static_cast<int>(k), f.width_mm);
+    if (k < panel.size()) write_panel(out, panel[k], static_cast<int>(k), page);
     else write_map(out, f.map[k - panel.size()], static_cast<int>(k - panel.size()));
   }
   if (several) out << "unset multiplot\n";

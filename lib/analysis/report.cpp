@@ -145,7 +145,7 @@ class Report {
     std::vector<std::string> lines;
     for (const Part& part : parts_) {
       std::string text = part.measurement->summary();
-      if (text.empty()) continue;
+      if (text.empty() || part.measurement.get() == profile_) continue;
       text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
       lines.push_back(text);
     }
@@ -199,7 +199,7 @@ class Report {
 
   void write_run_up(HtmlPage& page) {
     if (!run_up_) return;
-    Table t{{"bank or region", "highest run-up [m]", "reading ± [m]", "at t [s]", "x [m]", "y [m]", "z [m]"}, {}};
+    Table t{{"bank or region", "highest run-up [m]", "resolution [m]", "at t [s]", "x [m]", "y [m]", "z [m]"}, {}};
     const bool bars = report_.coarser.size() >= 2;
     if (bars) t.column.insert(t.column.end(), {"convergence", "order", "extrapolated [m]", "error bar ± [m]"});
     for (const auto& m : run_up_->maxima()) {

@@ -105,7 +105,7 @@ Panel RunUpMeasurement::against_time() const {
   panel.y_low = 0.0;
   panel.y_high = maximum_[0].height > 0.0 ? 1.25 * maximum_[0].height : info_.dp;
   if (highest_splash > panel.y_high) panel.note += "; splash up to " + format_number(std::round(10 * highest_splash) / 10) + " m";
-  if (highest_splash > 0.0) panel.series.push_back({"splash (not connected)", time_, splash_[0], {}, {}, MarkStyle::points, {}, 7});
+  if (highest_splash > 0.0) panel.series.push_back({"splash", time_, splash_[0], {}, {}, MarkStyle::points, {}, 7});
   return panel;
 }
 

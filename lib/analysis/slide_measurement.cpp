@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "analysis/front.hpp"
@@ -111,9 +112,10 @@ std::string SlideMeasurement::summary() const {
   if (time_.empty()) return {};
   double fastest = 0.0;
   for (const double v : speed_) fastest = std::max(fastest, std::isfinite(v) ? v : 0.0);
-  return "slide: fastest " + format_number(std::round(fastest * 1e3) / 1e3) + " m/s (centre of mass), front travelled " +
-         format_number(std::round(travel_.back() * 1e3) / 1e3) + " m, " +
-         format_number(std::round(1e3 * submerged_.back()) / 10.0) + " % submerged at the end";
+  char text[160];
+  std::snprintf(text, sizeof text, "slide: fastest %.3g m/s (centre of mass), front travelled %.4g m, %.3g %% submerged at the end", fastest, travel_.back(),
+                100.0 * submerged_.back());
+  return text;
 }
 
 }  // namespace gdesp::analysis

@@ -11,7 +11,7 @@ namespace gdesp::analysis {
 namespace {
 
 constexpr float none = std::numeric_limits<float>::quiet_NaN();
-constexpr double margin = 2.0;  // dp past the last particles
+constexpr double margin = 3.0;  // dp past the last particles
 
 std::vector<float> speeds_of_main(FrameView& view) {
   const FluidTable& fluid = view.frame().fluid;

@@ -17,7 +17,7 @@ struct WaterSheet {
 
 /// The free surface of the connected water (free_surface.hpp) on a grid of spacing `cell` m, with the speed of the water half a
 /// spacing below it. Particles end up to one spacing before the shore; so the sheet goes on at the level of its edge for
-/// 2 dp more, where the ground, drawn with it, cuts it off at the shore. For pictures: nothing is measured on it.
+/// 3 dp more, where the ground, drawn with it, cuts it off at the shore. For pictures: nothing is measured on it.
 WaterSheet make_water_sheet(FrameView& view, double cell);
 
 }  // namespace gdesp::analysis

@@ -23,7 +23,7 @@ fi
 if command -v ogrinfo >/dev/null; then
   ogrinfo -al -so maps/v_run_up_line.geojson >info || fail "GDAL does not open the run-up line"
   says info "Line String"
-  awk -F'[(, )]+' '/^Extent/{exit !($2>567900&&$2<567960&&$4>568060&&$4<568100)}' info || fail "run-up line is not in place: $(grep Extent info)"
+  awk -F'[(, )]+' '/^Extent/{exit !($2>567900&&$2<567960&&$5>568060&&$5<568100)}' info || fail "run-up line is not in place: $(grep Extent info)"
 fi
 valid_json maps/v_run_up_line.geojson
 grep -q '567\|568' maps/v_run_up_line.geojson || fail "run-up line is not in the terrain's coordinates"
