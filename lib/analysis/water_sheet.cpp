@@ -52,6 +52,15 @@ std::vector<float> ground_at(const RunInfo& info, const Raster& shape) {
   return ground;
 }
 
+// Past the particles the sheet goes on under rising ground, and over the lake's own shallows while the water stands about as
+// high as at rest: not over a dam's crest, nor where the water has drawn back from the slide.
+bool is_shore(const RunInfo& info, float level, float ground) {
+  if (!std::isfinite(level) || !std::isfinite(ground)) return false;
+  const double depth = level - ground;
+  if (depth <= 0.0 || !info.still_water_level) return depth <= 0.5 * info.dp;
+  return ground <= *info.still_water_level && level >= *info.still_water_level - 0.5 * info.dp && depth <= 1.2 * info.dp;
+}
+
 // One ring of cells outwards: dry cells beside wet ones take the mean of those.
 void extend(const Raster& shape, std::vector<float>& value) {
   const std::vector<float> before = value;
@@ -83,7 +92,6 @@ WaterSheet make_water_sheet(FrameView& view, double cell) {
   fill_surface_levels(view.water(), level);
   std::vector<float> speed = speeds_at(view, level);
   const std::vector<float> measured = level.value, ground = ground_at(view.info(), level);
-  const float depth = static_cast<float>(0.5 * view.info().dp);
   for (double done = 0.0; done < margin * view.info().dp; done += cell) {
     extend(level, level.value);
     extend(level, speed);
@@ -91,9 +99,7 @@ WaterSheet make_water_sheet(FrameView& view, double cell) {
   const bool moving = view.frame().fluid.velocity.size() == view.frame().fluid.position.size();
   std::vector<std::int32_t> number(level.value.size(), -1);
   for (std::size_t k = 0; k < number.size(); ++k) {
-    // Past the particles only where the ground comes up: not over a dam's crest, nor where the water has drawn back.
-    const bool wet = std::isfinite(measured[k]), shore = std::isfinite(level.value[k]) && ground[k] > level.value[k] - depth;
-    if (!wet && !shore) continue;
+    if (!std::isfinite(measured[k]) && !is_shore(view.info(), level.value[k], ground[k])) continue;
     number[k] = static_cast<std::int32_t>(sheet.vertex.size());
     sheet.vertex.push_back({level.x(static_cast<int>(k % level.nx)), level.y(static_cast<int>(k / level.nx)), level.value[k]});
     if (moving) sheet.speed.push_back(std::isfinite(speed[k]) ? speed[k] : 0.0f);
