@@ -161,7 +161,7 @@ Figure MapMeasurement::figure() const {
     m.value = r.value;
     for (float& v : m.value) v += static_cast<float>(up);
     m.overlay = {ground, outline, lake};
-    m.note = "black: outline of all that was ever wet; blue dashes: water's edge at the start; grey: contours of the ground";
+    m.note = "black: outline of all that was ever wet; grey: ground\nblue dashes: water's edge at the start";
     figure.map.push_back(std::move(m));
   };
   add("Highest water level", "elevation (m)", level_, info_.offset.z);

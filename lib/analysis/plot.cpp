@@ -260,10 +260,13 @@ std::string script(const Figure& f, const std::string& kind, const std::string& 
   out.precision(10);
   const std::vector<Panel> panel = aligned(f.panel);
   const Page page{f.width_mm, kind == ".svg"};
-  const auto legend_mm = [&](const std::vector<Series>& s) { return 5.2 * static_cast<double>(legend_rows(s, legend_columns(s, page))); };
+  const auto legend_mm = [&](const std::vector<Series>& s) {
+    const double row = page.svg ? 7.0 : 5.2, axis = page.svg ? 8.0 : 0.0;  // SVG's characters are taken to be larger
+    return axis + row * static_cast<double>(legend_rows(s, legend_columns(s, page)));
+  };
   std::vector<double> heights;
   for (const Panel& p : panel) heights.push_back(f.panel_height_mm + legend_mm(p.series));
-  for (const ColourMap& m : f.map) heights.push_back(1.4 * f.panel_height_mm + (m.note.empty() ? 0.0 : 5.0));
+  for (const ColourMap& m : f.map) heights.push_back(1.4 * f.panel_height_mm + (m.note.empty() ? 0.0 : 9.0));
   double height = f.title.empty() ? 0.0 : 9.0;
   for (const double h : heights) height += h;
   out << terminal(kind, f.width_mm, height) << "set output " << quoted(output) << "\n";
