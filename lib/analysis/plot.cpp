@@ -126,6 +126,23 @@ Range range_of(const Panel& p, bool vertical) {
   return r;
 }
 
+// Over less than three decades powers of ten alone are too few: 1, 2 and 5 of each.
+void write_log_ticks(std::ostream& out, const char* axis, const Range& r) {
+  if (!(r.low > 0.0) || r.high > 1e3 * r.low) {
+    out << "set " << axis << "tics auto\n";
+    return;
+  }
+  out << "set " << axis << "tics (";
+  const char* between = "";
+  for (double decade = std::pow(10.0, std::floor(std::log10(r.low)) - 1.0); decade <= 10.0 * r.high; decade *= 10.0) {
+    for (const double m : {1.0, 2.0, 5.0}) {
+      out << between << '"' << format_number(m * decade) << "\" " << m * decade;
+      between = ", ";
+    }
+  }
+  out << ")\n";
+}
+
 // A constant or empty series would leave gnuplot without a range.
 void write_range(std::ostream& out, const char* axis, const Range& r, bool log, bool reverse) {
   if (log && r.high > 0.0 && r.high > r.low && r.low > 0.0) {  // room for marks and names at both ends
@@ -186,6 +203,10 @@ void write_panel(std::ostream& out, const Panel& p, int index, const Page& page)
   else write_range(out, "x", x, p.log_x, false);
   if (std::isfinite(p.y_low) && std::isfinite(p.y_high)) out << "set yrange [" << p.y_low << ":" << p.y_high << "]\n";
   else write_range(out, "y", y, p.log_y, p.reverse_y);
+  if (p.log_x) write_log_ticks(out, "x", x);
+  else out << "set xtics auto\n";
+  if (p.log_y) write_log_ticks(out, "y", y);
+  else out << "set ytics auto\n";
   write_legend(out, p.series, page);
   std::string command;
   for (std::size_t k = 0; k < p.series.size(); ++k) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <limits>
 
@@ -40,6 +41,13 @@ Point measure_run(const CommandLine& line, const std::string& run, double refere
   p.cost = record->cost();
   p.score = record->score;
   return p;
+}
+
+std::string spacing(double metres) {
+  char text[32];
+  if (metres < 0.1) std::snprintf(text, sizeof text, "%.3g mm", 1e3 * metres);
+  else std::snprintf(text, sizeof text, "%.3g m", metres);
+  return text;
 }
 
 /// Points that others measured: columns name, error[%], cost[s/s], and where known group, source, dp[m], N.
@@ -101,7 +109,7 @@ analysis::Figure draw(const std::vector<Point>& points, const std::vector<bool>&
       s.x.push_back(p.cost);
       s.y.push_back(std::max(p.error, floor));
       spacings = spacings && std::isfinite(p.dp);
-      s.name.push_back(!std::isfinite(p.dp) ? analysis::plain_text(p.name) : front[k] ? "dp " + analysis::format_number(p.dp) + " m" : "");
+      s.name.push_back(!std::isfinite(p.dp) ? analysis::plain_text(p.name) : front[k] ? "dp " + spacing(p.dp) : "");
     }
     s.style = spacings && s.x.size() > 1 ? analysis::MarkStyle::line_points : analysis::MarkStyle::points;
     panel.series.push_back(std::move(s));
