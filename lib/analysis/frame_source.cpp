@@ -26,6 +26,12 @@ std::string text_of(const nlohmann::ordered_json& record, const char* key) {
   return it != record.end() && it->is_string() ? it->get<std::string>() : std::string();
 }
 
+template <class T>
+T number_of(const nlohmann::ordered_json& record, const char* key, T otherwise) {
+  const auto it = record.find(key);
+  return it != record.end() && it->is_number() ? it->get<T>() : otherwise;
+}
+
 }  // namespace
 
 // Reads one frame ahead in a thread of its own. The thread may wait on standard input for ever, so it is
@@ -69,8 +75,8 @@ std::optional<FramePaths> FrameSource::Reader::next_record() {
     p.grains = text_of(*record, "grains");
     p.bodies = text_of(*record, "bodies");
     if (p.fluid == p.grains) p.fluid.clear();
-    p.time = record->value("t", 0.0);
-    p.step = record->value("step", std::int64_t{0});
+    p.time = number_of(*record, "t", 0.0);
+    p.step = number_of(*record, "step", std::int64_t{0});
     if (run_path.empty()) {
       const std::string some = p.fluid.empty() ? p.grains : p.fluid;
       run_path = fs::path(some).parent_path().parent_path().string();

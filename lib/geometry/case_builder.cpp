@@ -9,6 +9,7 @@
 #include "geometry/body_builder.hpp"
 #include "geometry/checksum.hpp"
 #include "geometry/slide_builder.hpp"
+#include "geometry/water_reach.hpp"
 
 namespace gdesp::geometry {
 namespace {
@@ -47,7 +48,27 @@ FillSpace fill_space(const Layout& layout, ColumnIntervals& walls) {
   return space;
 }
 
-std::vector<BandPoint> wall_band(const Layout& layout, const FillSpace& space, const ColumnIntervals& walls, const std::string& vdb_path) {
+/// Unset: everywhere.
+std::optional<WaterReach> wanted_walls(const Layout& layout, const FillSpace& space, const ColumnIntervals& walls, const std::vector<Vec3d>& water, BuildReport& report) {
+  if (layout.scene.wall_particles == "all") return std::nullopt;
+  const double run_up = layout.scene.run_up > 0.0 ? layout.scene.run_up : default_run_up(layout.scene, layout.parts, water);
+  std::optional<WaterReach> reach = reach_of_water(space, walls, water, run_up);
+  if (!reach || reach->share > 0.999) return std::nullopt;
+  char text[200];
+  std::snprintf(text, sizeof text, "wall particles where water can climb to, up to %.6g m (run-up of %.4g m above the water): %.3g %% of the ground; domain.run_up, domain.wall_particles",
+                reach->head + layout.offset.z, run_up, 100.0 * reach->share);
+  report.notes.done.push_back(text);
+  return reach;
+}
+
+void keep_reachable(std::vector<BandPoint>& band, const FillSpace& space, const WaterReach& reach) {
+  std::erase_if(band, [&](const BandPoint& b) {
+    const int i = b.at.x - space.columns.i0, j = b.at.y - space.columns.j0;
+    return i >= 0 && j >= 0 && i < space.columns.grid.nx && j < space.columns.grid.ny && !reach.column[space.columns.grid.index(i, j)];
+  });
+}
+
+std::vector<BandPoint> wall_band(const Layout& layout, const WallSurfaces& surfaces, const FillSpace& space, const ColumnIntervals& walls, const std::string& vdb_path) {
   BandRequest request;
   request.lattice = layout.lattice;
   request.columns = space.columns;
@@ -58,7 +79,7 @@ std::vector<BandPoint> wall_band(const Layout& layout, const FillSpace& space, c
     request.upper[a] = flat ? 0 : layout.lattice.last_at_or_below(a, layout.domain.upper[a]);
   }
   request.half_width = boundary_layer_count;
-  return signed_distance_band(layout.walls, request, vdb_path, layout.offset);
+  return signed_distance_band(surfaces, request, vdb_path, layout.offset);
 }
 
 std::vector<PorousRegion> porous_regions(const Layout& layout, const FillSpace& space) {
@@ -196,7 +217,9 @@ Case build_case(const Scene& scene, BuildReport& report, const std::string& vdb_
   stages.begin("filling water");
   fill_fluid(layout, space, out, report);
   stages.begin("placing walls");
-  const std::vector<BandPoint> band = wall_band(layout, space, walls, vdb_path);
+  const std::optional<WaterReach> reach = wanted_walls(layout, space, walls, out.fluid.position, report);
+  std::vector<BandPoint> band = wall_band(layout, reach ? within_reach(layout.walls, *reach, space) : layout.walls, space, walls, vdb_path);
+  if (reach) keep_reachable(band, space, *reach);
   report.band_voxels = band.size();
   add_tank_layers(layout.parts, layout.lattice, out.boundary);
   add_band_layers(band, layout.parts, layout.lattice, out.boundary);

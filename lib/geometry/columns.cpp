@@ -131,7 +131,7 @@ ColumnIntervals solid_intervals(const TriangleMesh& mesh, const ColumnGrid& grid
 }
 
 std::vector<double> sheet_heights(const TriangleMesh& mesh, const ColumnGrid& grid, double tolerance,
-                                  std::size_t* folded) {
+                                  std::size_t* folded, Vec3d* where) {
   const Crossings crossings = cross_columns(mesh, grid);
   std::vector<double> height(grid.count(), std::numeric_limits<double>::quiet_NaN());
   std::size_t folds = 0;
@@ -139,7 +139,9 @@ std::vector<double> sheet_heights(const TriangleMesh& mesh, const ColumnGrid& gr
     const std::size_t a = crossings.first[c], b = crossings.first[c + 1];
     if (a == b) continue;
     height[c] = crossings.hit[b - 1].z;
-    folds += crossings.hit[b - 1].z - crossings.hit[a].z > tolerance;
+    if (!(crossings.hit[b - 1].z - crossings.hit[a].z > tolerance)) continue;
+    ++folds;
+    if (where) *where = {grid.x(static_cast<int>(c % static_cast<std::size_t>(grid.nx))), grid.y(static_cast<int>(c / static_cast<std::size_t>(grid.nx))), height[c]};
   }
   if (folded) *folded = folds;
   return height;

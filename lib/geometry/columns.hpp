@@ -52,9 +52,9 @@ Crossings cross_columns(const TriangleMesh& mesh, const ColumnGrid& grid);
 ColumnIntervals solid_intervals(const TriangleMesh& mesh, const ColumnGrid& grid);
 
 /// Height of an open sheet at each column: its highest crossing; NaN where the sheet has no triangle.
-/// `folded`: number of columns with more than one distinct crossing (apart by more than `tolerance`, m).
+/// `folded`: number of columns with more than one distinct crossing (apart by more than `tolerance`, m); `where`: the place of one.
 std::vector<double> sheet_heights(const TriangleMesh& mesh, const ColumnGrid& grid, double tolerance,
-                                  std::size_t* folded);
+                                  std::size_t* folded, Vec3d* where = nullptr);
 
 /// Union, per column.
 ColumnIntervals unite(const ColumnIntervals& a, const ColumnIntervals& b);

@@ -87,13 +87,17 @@ void check_mesh(FileReport& r) {
 }
 
 void check_raster(FileReport& r) {
-  const Raster raster = read_raster(r.path, {});
+  Raster raster = read_raster(r.path, {});
   r.kind = "raster";
   std::size_t missing = 0;
   for (const double z : raster.field.z) missing += !std::isfinite(z);
   r.numbers = {{"columns", raster.field.nx}, {"rows", raster.field.ny}, {"dx", raster.field.dx}, {"dy", raster.field.dy}};
   add_count(r, "missing_nodes", missing, "nodes without data");
   add_box(r, bounds(raster.field));
+  if (const std::size_t n = fill_small_gaps(raster.field)) {
+    r.verdict = MeshVerdict::repaired;
+    r.repair.push_back(std::to_string(n) + " of them, enclosed and few, filled from their rim where the raster is a terrain");
+  }
   if (raster.crs.empty()) r.found.push_back("the coordinate system is not stated; give terrain.crs where it matters");
 }
 
@@ -104,7 +108,11 @@ void check_points(FileReport& r) {
   add_box(r, bounds(mesh));
   if (mesh.empty()) {
     r.verdict = MeshVerdict::refused;
-    r.refusal = "its points span no area";
+    Box box = empty_box();
+    for (const auto& p : points) extend(box, p);
+    const int flat = extent(box).x == 0.0 ? 0 : 1;
+    r.refusal = "its points span no area: the first three columns are taken as x y z, and " + std::string(flat == 0 ? "x" : "y") + " is " + number(box.lower[flat]) +
+                " throughout" + (flat == 0 ? " (is the first column a number of the line or ring?)" : "");
     return;
   }
   r.kind = "points";

@@ -80,6 +80,45 @@ Heightfield crop(const Heightfield& f, const Box& box) {
   return out;
 }
 
+std::size_t fill_small_gaps(Heightfield& f) {
+  constexpr std::size_t most = 64;   // nodes of one gap
+  std::vector<char> seen(f.z.size(), 0);
+  std::size_t filled = 0;
+  const auto index = [&](int i, int j) { return static_cast<std::size_t>(j) * f.nx + i; };
+  for (int j = 0; j < f.ny; ++j) {
+    for (int i = 0; i < f.nx; ++i) {
+      if (seen[index(i, j)] || std::isfinite(f.at(i, j))) continue;
+      std::vector<std::pair<int, int>> gap = {{i, j}};
+      seen[index(i, j)] = 1;
+      bool enclosed = true;
+      double sum = 0.0;
+      std::size_t rim = 0;
+      for (std::size_t k = 0; k < gap.size(); ++k) {
+        const auto [a, b] = gap[k];
+        for (const auto& [da, db] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+          const int u = a + da, v = b + db;
+          if (u < 0 || v < 0 || u >= f.nx || v >= f.ny) {
+            enclosed = false;
+          } else if (std::isfinite(f.at(u, v))) {
+            sum += f.at(u, v);
+            ++rim;
+          } else if (!seen[index(u, v)]) {
+            seen[index(u, v)] = 1;
+            gap.push_back({u, v});
+          }
+        }
+      }
+      if (!enclosed || gap.size() > most || rim == 0) continue;
+      for (const auto& [a, b] : gap) f.at(a, b) = sum / static_cast<double>(rim);
+      for (int sweep = 0; sweep < 200; ++sweep) {
+        for (const auto& [a, b] : gap) f.at(a, b) = 0.25 * (f.at(a - 1, b) + f.at(a + 1, b) + f.at(a, b - 1) + f.at(a, b + 1));
+      }
+      filled += gap.size();
+    }
+  }
+  return filled;
+}
+
 Box bounds(const Heightfield& f) {
   Box box = empty_box();
   for (int j = 0; j < f.ny; ++j) {

@@ -26,6 +26,9 @@ double sample(const Heightfield& field, double x, double y);
 TriangleMesh to_mesh(const Heightfield& field, const Box* box = nullptr);
 /// The part of the field whose nodes lie within `box` enlarged by one node.
 Heightfield crop(const Heightfield& field, const Box& box);
+/// Nodes without data that are enclosed by data, at most 64 side by side: filled by the membrane that their rim spans (Laplace's
+/// equation, relaxed). Wider gaps stay gaps. Returns how many nodes were filled.
+std::size_t fill_small_gaps(Heightfield& field);
 Box bounds(const Heightfield& field);
 /// Writes an ESRI ASCII grid (square cells required), with xllcenter / yllcenter and NODATA -9999, `decimals` digits.
 void write_esri_ascii(const Heightfield& field, const std::string& path, int decimals);

@@ -16,8 +16,10 @@
 #include <CGAL/boost/graph/helpers.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <unordered_map>
 
 #include "core/error.hpp"
@@ -83,6 +85,56 @@ std::size_t count_degenerate(const TriangleMesh& mesh) {
   return n;
 }
 
+/// A sheet that needs nothing: every triangle looks up, every edge is used once or twice and then both ways, there is one rim,
+/// and no two triangles lie over one another. Such a mesh, the common case, is spared the machinery below.
+bool is_plain_sheet(const TriangleMesh& mesh) {
+  std::vector<std::uint64_t> edges;   // directed, by the smaller end; the lowest bit tells the direction
+  edges.reserve(3 * mesh.triangle.size());
+  for (const auto& t : mesh.triangle) {
+    if (!(cross(mesh.vertex[t.y] - mesh.vertex[t.x], mesh.vertex[t.z] - mesh.vertex[t.x]).z > 0.0)) return false;
+    for (int c = 0; c < 3; ++c) {
+      const auto a = static_cast<std::uint64_t>(t[c]), b = static_cast<std::uint64_t>(t[(c + 1) % 3]);
+      edges.push_back((std::min(a, b) << 33 | std::max(a, b) << 1) | (a < b ? 0u : 1u));
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  std::unordered_map<std::uint64_t, std::uint64_t> next;   // along the rim
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    const std::uint64_t edge = edges[k] >> 1, a = edge >> 32, b = edge & 0xffffffffu;
+    if (k + 1 < edges.size() && edges[k + 1] >> 1 == edge) {
+      if (edges[k] == edges[k + 1] || (k + 2 < edges.size() && edges[k + 2] >> 1 == edge)) return false;
+      ++k;
+    } else if (!next.emplace(edges[k] & 1 ? b : a, edges[k] & 1 ? a : b).second) {
+      return false;
+    }
+  }
+  if (next.empty()) return false;
+  std::size_t length = 0;
+  const std::uint64_t start = next.begin()->first;
+  for (std::uint64_t at = start; length == 0 || at != start; ++length) {
+    const auto step = next.find(at);
+    if (step == next.end() || length > next.size()) return false;
+    at = step->second;
+  }
+  if (length != next.size()) return false;
+  const Box box = bounds(mesh);
+  const double widest = std::max(extent(box).x, extent(box).y);
+  std::size_t folded = 0;
+  sheet_heights(mesh, covering_columns(box, widest / 400.0), 1e-6 * widest, &folded);
+  return folded == 0;
+}
+
+MeshReport plain_sheet_report(const TriangleMesh& mesh) {
+  MeshReport r;
+  r.sheet = true;
+  r.vertices = mesh.vertex.size();
+  r.triangles = mesh.triangle.size();
+  r.components = r.holes = 1;
+  r.box = bounds(mesh);
+  r.area = surface_area(mesh);
+  return r;
+}
+
 class Repair {
  public:
   Repair(TriangleMesh& mesh, MeshPurpose purpose, const RepairLimits& limits) : mesh_(mesh), purpose_(purpose), limits_(limits) {}
@@ -140,10 +192,62 @@ class Repair {
     triangles_.erase(std::remove_if(triangles_.begin(), triangles_.end(), [](const Polygon& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }),
                      triangles_.end());
     if (const std::size_t n = before - triangles_.size()) did(plural(n, "triangle without area removed", "triangles without area removed"));
+    if (const std::size_t n = remove_flaps()) did(plural(n, "pair", "pairs") + " of triangles back to back, with nothing between them, removed");
     report_.duplicate_triangles = pmp::merge_duplicate_polygons_in_polygon_soup(points_, triangles_, CGAL::parameters::require_same_orientation(false));
     if (report_.duplicate_triangles) did(plural(report_.duplicate_triangles, "double triangle removed", "double triangles removed"));
     report_.unused_vertices = pmp::remove_isolated_points_in_polygon_soup(points_, triangles_);
     if (report_.unused_vertices) did(plural(report_.unused_vertices, "unused vertex dropped", "unused vertices dropped"));
+  }
+
+  /// Two triangles on the same corners that look opposite ways enclose nothing: where layers thin out to nothing. Both go when the
+  /// edges they leave are then used in pairs; otherwise they are one facet given twice, and one stays.
+  std::size_t remove_flaps() {
+    using Key = std::array<std::size_t, 3>;
+    std::vector<std::pair<Key, std::size_t>> order;
+    order.reserve(triangles_.size());
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      Key key{triangles_[t][0], triangles_[t][1], triangles_[t][2]};
+      std::sort(key.begin(), key.end());
+      order.push_back({key, t});
+    }
+    std::sort(order.begin(), order.end());
+    std::map<Key, std::array<std::size_t, 2>> same;
+    for (std::size_t k = 0, next = 0; k < order.size(); k = next) {
+      while (next < order.size() && order[next].first == order[k].first) ++next;
+      if (next - k == 2) same[order[k].first] = {order[k].second, order[k + 1].second};
+    }
+    if (same.empty()) return 0;
+    std::map<std::pair<std::size_t, std::size_t>, int> uses;   // of edges, by triangles that are not doubled
+    for (const auto& t : triangles_) {
+      Key key{t[0], t[1], t[2]};
+      std::sort(key.begin(), key.end());
+      if (same.count(key)) continue;
+      for (int c = 0; c < 3; ++c) ++uses[std::minmax(t[c], t[(c + 1) % 3])];
+    }
+    std::vector<bool> gone(triangles_.size(), false);
+    std::size_t pairs = 0;
+    for (const auto& [key, pair] : same) {
+      if (same_turn(triangles_[pair[0]], triangles_[pair[1]])) continue;
+      int odd = 0;
+      for (int c = 0; c < 3; ++c) odd += uses[{key[c == 2 ? 0 : c], key[c == 2 ? 2 : c + 1]}] % 2;
+      if (odd > 1) continue;
+      gone[pair[0]] = gone[pair[1]] = true;
+      ++pairs;
+    }
+    std::size_t n = 0;
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      if (!gone[t]) triangles_[n++] = triangles_[t];
+    }
+    triangles_.resize(n);
+    return pairs;
+  }
+
+  /// Whether two triangles on the same corners go round them the same way.
+  static bool same_turn(const Polygon& a, const Polygon& b) {
+    for (int c = 0; c < 3; ++c) {
+      if (a[0] == b[c]) return a[1] == b[(c + 1) % 3];
+    }
+    return false;
   }
 
   TriangleMesh from_soup() const {
@@ -185,6 +289,7 @@ class Repair {
     std::vector<Surface::Halfedge_index> borders;
     pmp::extract_boundary_cycles(surface_, std::back_inserter(borders));
     report_.holes = borders.size();
+    if (purpose_ == MeshPurpose::sheet) return;   // what counts there is that no vertical line meets it twice
     std::vector<std::pair<Surface::Face_index, Surface::Face_index>> pairs;
     pmp::self_intersections<CGAL::Parallel_if_available_tag>(surface_, std::back_inserter(pairs));
     report_.self_intersections = pairs.size();
@@ -207,23 +312,41 @@ class Repair {
     const Vec3d size = extent(report_.box);
     const ColumnGrid columns = covering_columns(report_.box, std::max(size.x, size.y) / 400.0);
     std::size_t folded = 0;
-    const std::vector<double> heights = sheet_heights(m, columns, 1e-6 * std::max(size.x, size.y), &folded);
+    const std::vector<double> heights = sheet_heights(m, columns, 1e-6 * std::max(size.x, size.y), &folded, &fold_at_);
     std::size_t covered = 0;
     for (const double h : heights) covered += std::isfinite(h);
     folds_ = covered ? static_cast<double>(folded) / static_cast<double>(covered) : 1.0;
-    for (int j = 0; j < columns.ny && folded; ++j) {
-      for (int i = 0; i < columns.nx; ++i) {
-        if (std::isfinite(heights[columns.index(i, j)])) fold_at_ = {columns.x(i), columns.y(j), heights[columns.index(i, j)]};
-      }
-    }
     return covered > 0 && folds_ < 0.002 && std::abs(up) > 0.99 * all;
   }
 
   std::string sheet_refusal() {
     if (report_.holes == 0) return "is closed, not an open sheet: give it as a wall, or cut its top surface out";
-    char text[160];
-    std::snprintf(text, sizeof text, "folds over itself seen from above (%.2g %% of its area): heights there would be a guess", 100.0 * folds_);
+    char text[200];
+    std::snprintf(text, sizeof text, "folds over itself seen from above (%.2g %% of its area, e.g. at %s): heights there would be a guess", 100.0 * folds_,
+                  at(fold_at_).c_str());
     return text;
+  }
+
+  struct Hole { Surface::Halfedge_index border; Vec3d place; double width = 0.0; std::size_t edges = 0; };
+
+  /// Widest first.
+  std::vector<Hole> measure_holes(const std::vector<Surface::Halfedge_index>& borders) const {
+    std::vector<Hole> holes;
+    for (const auto border : borders) {
+      Box box = empty_box();
+      Hole hole;
+      hole.border = border;
+      for (const auto h : CGAL::halfedges_around_face(border, surface_)) {
+        extend(box, vec(surface_.point(surface_.target(h))));
+        ++hole.edges;
+      }
+      const Vec3d w = extent(box);
+      hole.width = std::max({w.x, w.y, w.z});
+      hole.place = (box.lower + box.upper) * 0.5;
+      holes.push_back(hole);
+    }
+    std::stable_sort(holes.begin(), holes.end(), [](const Hole& a, const Hole& b) { return a.width > b.width; });
+    return holes;
   }
 
   bool close_holes() {
@@ -231,32 +354,24 @@ class Repair {
     pmp::extract_boundary_cycles(surface_, std::back_inserter(borders));
     const Vec3d size = extent(report_.box);
     const double widest = limits_.hole_share * std::max({size.x, size.y, size.z});
-    double largest = 0.0;
-    for (const auto border : borders) {
-      Box hole = empty_box();
-      std::size_t edges = 0;
-      for (const auto h : CGAL::halfedges_around_face(border, surface_)) {
-        extend(hole, vec(surface_.point(surface_.target(h))));
-        ++edges;
-      }
-      const Vec3d w = extent(hole);
-      const double width = std::max({w.x, w.y, w.z});
-      const Vec3d place = (hole.lower + hole.upper) * 0.5;
-      if (width > widest || edges > limits_.hole_edges) {
-        char text[200];
-        std::snprintf(text, sizeof text, "is open: the %s around %s is %.4g m wide (%zu edges); holes up to %.4g m are closed, wider ones would be a guess",
-                      borders.size() == 1 ? "hole" : "widest kind of hole", at(place).c_str(), width, edges, widest);
-        refuse(text);
-        return false;
-      }
-      largest = std::max(largest, width);
-      std::vector<Surface::Face_index> patch;
-      pmp::triangulate_hole(surface_, border, std::back_inserter(patch));
-      if (patch.empty()) {
-        refuse("the hole around " + at(place) + " cannot be closed by triangles");
-        return false;
-      }
+    const std::vector<Hole> holes = measure_holes(borders);
+    for (const auto& hole : holes) {
+      if (hole.width <= widest && hole.edges <= limits_.hole_edges) continue;
+      char text[240];
+      std::snprintf(text, sizeof text, "is open: the %s around %s is %.4g m wide (%zu edges); holes up to %.4g m and %zu edges are closed, wider ones would be a guess",
+                    holes.size() == 1 ? "hole" : ("widest of its " + std::to_string(holes.size()) + " holes").c_str(), at(hole.place).c_str(), hole.width, hole.edges,
+                    widest, limits_.hole_edges);
+      refuse(text);
+      return false;
     }
+    for (const auto& hole : holes) {
+      std::vector<Surface::Face_index> patch;
+      pmp::triangulate_hole(surface_, hole.border, std::back_inserter(patch));
+      if (!patch.empty()) continue;
+      refuse("the hole around " + at(hole.place) + " cannot be closed by triangles");
+      return false;
+    }
+    const double largest = holes.empty() ? 0.0 : holes.front().width;
     if (!borders.empty()) {
       char text[96];
       std::snprintf(text, sizeof text, "%s closed (widest %.4g m)", plural(borders.size(), "hole", "holes").c_str(), largest);
@@ -319,7 +434,32 @@ class Repair {
     return m;
   }
 
+  /// Holes inside a sheet are closed when they are small beside it; larger ones stay, and are told.
+  void close_sheet_holes() {
+    std::vector<Surface::Halfedge_index> borders;
+    pmp::extract_boundary_cycles(surface_, std::back_inserter(borders));
+    const Vec3d size = extent(report_.box);
+    const double widest = 0.2 * limits_.hole_share * std::max(size.x, size.y);
+    double largest = 0.0;
+    std::size_t closed = 0;
+    const std::vector<Hole> holes = measure_holes(borders);
+    for (std::size_t k = 1; k < holes.size(); ++k) {   // the first is the outer rim
+      const Hole& hole = holes[k];
+      if (hole.width > widest || hole.edges > limits_.hole_edges) continue;
+      std::vector<Surface::Face_index> patch;
+      pmp::triangulate_hole(surface_, hole.border, std::back_inserter(patch));
+      if (patch.empty()) continue;
+      largest = std::max(largest, hole.width);
+      ++closed;
+    }
+    if (closed == 0) return;
+    char text[96];
+    std::snprintf(text, sizeof text, "%s in the sheet closed (widest %.4g m)", plural(closed, "hole", "holes").c_str(), largest);
+    did(text);
+  }
+
   MeshReport accept_sheet() {
+    close_sheet_holes();
     report_.sheet = true;
     mesh_ = to_mesh();
     return report_;
@@ -351,6 +491,7 @@ class Repair {
 }  // namespace
 
 MeshReport check_and_repair(TriangleMesh& mesh, MeshPurpose purpose, const RepairLimits& limits) {
+  if (purpose == MeshPurpose::sheet && is_plain_sheet(mesh)) return plain_sheet_report(mesh);
   TriangleMesh copy = mesh;
   try {
     MeshReport report = Repair(copy, purpose, limits).run();

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstdio>
 #include <map>
 #include <unordered_map>
@@ -14,6 +15,7 @@
 #include "core/error.hpp"
 #include "geometry/mesh_reader.hpp"
 #include "io/isolated.hpp"
+#include "io/safe_file.hpp"
 
 namespace gdesp::geometry {
 namespace {
@@ -124,7 +126,55 @@ bool has_elements() {
   return !types.empty() || !solid.empty();
 }
 
+/// The text without comments and without what stands in quotes.
+std::string bare_text(const std::string& text) {
+  std::string out;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    if (text.compare(k, 2, "//") == 0) {
+      while (k < text.size() && text[k] != '\n') ++k;
+    } else if (text.compare(k, 2, "/*") == 0) {
+      const std::size_t end = text.find("*/", k + 2);
+      for (; k < text.size() && k < end; ++k) if (text[k] == '\n') out += '\n';
+      ++k;
+    } else if (text[k] == '"') {
+      const std::size_t end = text.find('"', k + 1);
+      k = end == std::string::npos ? text.size() : end;
+      out += ' ';
+      continue;
+    }
+    out += k < text.size() && text[k] != '/' ? text[k] : ' ';
+  }
+  return out;
+}
+
+/// A GEO file is a program: it can run commands, write, delete and read other files. A scene's input may only describe shapes, and
+/// gmsh takes whatever it does not recognise for GEO.
+void refuse_commands(const std::string& path) {
+  const std::string all = read_text_file(path, std::size_t{1} << 30);
+  const std::string start = all.substr(0, 200);
+  if (start.rfind("$MeshFormat", 0) == 0 || start.rfind("ISO-10303-21", 0) == 0) return;
+  const bool geo = path.size() > 4 && path.compare(path.size() - 4, 4, ".geo") == 0;
+  if (!geo) throw Error(ErrorKind::input, path + ": does not begin with " + (path.ends_with(".msh") ? "$MeshFormat (MSH 2 and 4 do)" : "ISO-10303-21 (STEP does)"));
+  static const char* const words[] = {"SystemCall", "NonBlockingSystemCall", "Print", "Printf", "Save", "SaveAll", "UnlinkFile", "CreateDir", "Plugin",
+                                      "Include", "Merge", "ShapeFromFile", "Exit", "Abort", "General", "OnelabRun", "SetString", "GetEnv"};
+  const std::string text = bare_text(all);
+  std::size_t line = 1;
+  std::string word;
+  for (const char c : text + " ") {
+    if (std::isalnum(static_cast<unsigned char>(c)) || c == '_') {
+      word += c;
+      continue;
+    }
+    for (const char* const w : words) {
+      if (word == w) throw Error(ErrorKind::input, path + ":" + std::to_string(line) + ": \"" + word + "\" is a command to gmsh, not a shape; a GEO file of a scene may only describe geometry");
+    }
+    word.clear();
+    line += c == '\n';
+  }
+}
+
 TriangleMesh read_surface(const std::string& path, double mesh_size) {
+  refuse_commands(path);
   start_gmsh();
   try {
     gmsh::open(path);

@@ -55,6 +55,23 @@ Dataset warp(Dataset source, const std::string& path, const std::string& from, c
   return Dataset(GDALDataset::FromHandle(out));
 }
 
+/// A header can state any size; memory is only taken for what a file of this length may hold: text needs two bytes a node, and
+/// nothing that was measured packs better than four thousand nodes a byte.
+void check_size(GDALDataset& data, const std::string& path) {
+  const double nodes = static_cast<double>(data.GetRasterXSize()) * data.GetRasterYSize();
+  const std::string driver = data.GetDriverName() ? data.GetDriverName() : "";
+  std::error_code failed;
+  const auto bytes = static_cast<double>(std::filesystem::file_size(path, failed));
+  if (failed || driver == "VRT") return;
+  const bool gzipped = std::filesystem::path(path).extension() == ".gz";
+  const bool text = driver == "AAIGrid" || driver == "GSAG" || driver == "GRASSASCIIGrid" || driver == "XYZ" || driver == "USGSDEM";
+  const double most = text ? (bytes + 64.0) * (gzipped ? 500.0 : 0.5) + 1.0 : (bytes + 64.0) * 4000.0;
+  if (nodes > most) {
+    refuse(path, "is damaged or cut short: it states " + std::to_string(data.GetRasterXSize()) + " x " + std::to_string(data.GetRasterYSize()) +
+                     " nodes, which a file of " + std::to_string(static_cast<long long>(bytes)) + " bytes cannot hold");
+  }
+}
+
 /// Rows from the south, data-free nodes NaN.
 Heightfield read_band(GDALDataset& data, const std::string& path) {
   double g[6] = {0, 1, 0, 0, 0, -1};
@@ -118,6 +135,7 @@ Raster read_raster(const std::string& path, const RasterOptions& options) {
   if (!std::filesystem::exists(path)) refuse(path, "no such file");
   Dataset data = open_quietly(path);
   if (!data) refuse(path, "is no raster that can be read (GeoTIFF, ESRI ASCII, USGS DEM, XYZ grid are), or it is damaged");
+  check_size(*data, path);
   Raster out;
   out.driver = data->GetDriverName() ? data->GetDriverName() : "";
   const OGRSpatialReference* own = data->GetSpatialRef();

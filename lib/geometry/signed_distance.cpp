@@ -4,10 +4,12 @@
 #include <openvdb/io/File.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/MeshToVolume.h>
-#include <openvdb/tools/SignedFloodFill.h>
+#include <openvdb/tools/ChangeBackground.h>
+#include <openvdb/tools/Prune.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <mutex>
 
 #include "core/error.hpp"
@@ -60,20 +62,65 @@ BandPoint measure(const WallSurfaces& walls, const BandRequest& r, const Index3&
   return {at, static_cast<float>(sign * apart), static_cast<Vec3f>(normal), walls.material[triangle]};
 }
 
-void write_grids(const std::string& path, const std::vector<BandPoint>& band, const BandRequest& r, const Vec3d& offset) {
-  const auto background = static_cast<float>(r.half_width * r.lattice.dp);
-  auto distance = openvdb::FloatGrid::create(background);
-  auto material = openvdb::Int32Grid::create(0);
-  {
-    auto d = distance->getAccessor();
-    auto m = material->getAccessor();
-    for (const auto& b : band) {
-      d.setValue({b.at.x, b.at.y, b.at.z}, b.distance);
-      m.setValue({b.at.x, b.at.y, b.at.z}, b.material);
+/// One leaf of the band: its voxels, and what became of them.
+struct Leaf {
+  openvdb::FloatTree::LeafNodeType* distance;
+  openvdb::Int32Tree::LeafNodeType* nearest;
+  std::vector<BandPoint> points;
+};
+
+/// Fills in distance and material of a leaf's voxels; those that lie outside the box or the band are switched off.
+void measure_leaf(Leaf& leaf, const WallSurfaces& walls, const BandRequest& r) {
+  const double limit = r.half_width * r.lattice.dp;
+  const auto background = static_cast<float>(limit);
+  for (auto v = leaf.distance->beginValueOn(); v; ++v) {
+    const openvdb::Coord c = v.getCoord();
+    const Index3 at{c.x(), c.y(), c.z()};
+    const std::int32_t triangle = leaf.nearest->getValue(v.pos());
+    const bool known = triangle >= 0 && static_cast<std::size_t>(triangle) < walls.mesh.triangle.size();
+    if (known && within(at, r.lower, r.upper)) {
+      const BandPoint point = measure(walls, r, at, triangle);
+      if (std::abs(point.distance) <= limit) {
+        v.setValue(point.distance);
+        leaf.nearest->setValueOn(v.pos(), point.material);
+        leaf.points.push_back(point);
+        continue;
+      }
+    }
+    v.setValue(background);
+    v.setValueOff();
+  }
+  leaf.nearest->setValueMask(leaf.distance->getValueMask());
+  for (auto v = leaf.nearest->beginValueOff(); v; ++v) v.setValue(0);
+}
+
+/// Ordered by (i, j, k). Leaves come in an order in which those above one another ascend, so counting by column is enough.
+std::vector<BandPoint> in_order(const std::vector<Leaf>& leaves) {
+  Index3 low{INT32_MAX, INT32_MAX, 0}, high{INT32_MIN, INT32_MIN, 0};
+  for (const auto& leaf : leaves) {
+    for (const auto& p : leaf.points) {
+      low.x = std::min(low.x, p.at.x), low.y = std::min(low.y, p.at.y);
+      high.x = std::max(high.x, p.at.x), high.y = std::max(high.y, p.at.y);
     }
   }
-  auto transform = openvdb::math::Transform::createLinearTransform(r.lattice.dp);
-  const Vec3d first = r.lattice.point({0, 0, 0});
+  if (low.x > high.x) return {};
+  const std::size_t ny = static_cast<std::size_t>(high.y - low.y) + 1, columns = (static_cast<std::size_t>(high.x - low.x) + 1) * ny;
+  const auto column = [&](const BandPoint& p) { return static_cast<std::size_t>(p.at.x - low.x) * ny + static_cast<std::size_t>(p.at.y - low.y); };
+  std::vector<std::size_t> next(columns + 1, 0);
+  for (const auto& leaf : leaves) {
+    for (const auto& p : leaf.points) ++next[column(p) + 1];
+  }
+  for (std::size_t c = 0; c < columns; ++c) next[c + 1] += next[c];
+  std::vector<BandPoint> out(next[columns]);
+  for (const auto& leaf : leaves) {
+    for (const auto& p : leaf.points) out[next[column(p)]++] = p;
+  }
+  return out;
+}
+
+void write_grids(const std::string& path, const openvdb::FloatGrid::Ptr& distance, const openvdb::Int32Grid::Ptr& material, const Lattice& lattice, const Vec3d& offset) {
+  auto transform = openvdb::math::Transform::createLinearTransform(lattice.dp);
+  const Vec3d first = lattice.point({0, 0, 0});
   transform->postTranslate({first.x, first.y, first.z});
   distance->setTransform(transform);
   material->setTransform(transform->copy());
@@ -97,31 +144,25 @@ std::vector<BandPoint> signed_distance_band(const WallSurfaces& walls, const Ban
                                             const Vec3d& offset) {
   static std::once_flag once;
   std::call_once(once, [] { openvdb::initialize(); });
-  std::vector<BandPoint> band;
+  auto distance = openvdb::FloatGrid::create(static_cast<float>(r.half_width * r.lattice.dp));
+  const auto nearest = openvdb::Int32Grid::create(openvdb::util::INVALID_IDX);
+  std::vector<Leaf> leaves;
   if (!walls.mesh.empty()) {
     const IndexSpaceMesh mesh(walls.mesh, r.lattice);
-    const auto transform = openvdb::math::Transform::createLinearTransform(1.0);
-    openvdb::Int32Grid nearest(openvdb::util::INVALID_IDX);
+    const auto transform = openvdb::math::Transform::createLinearTransform(r.lattice.dp);
     const auto width = static_cast<float>(r.half_width);
-    const auto grid = openvdb::tools::meshToVolume<openvdb::FloatGrid>(
-        mesh, *transform, width, width, openvdb::tools::UNSIGNED_DISTANCE_FIELD, &nearest);
-    auto index = nearest.getConstAccessor();
-    band.reserve(grid->activeVoxelCount());
-    for (auto v = grid->cbeginValueOn(); v; ++v) {
-      const openvdb::Coord c = v.getCoord();
-      const Index3 at{c.x(), c.y(), c.z()};
-      if (!within(at, r.lower, r.upper)) continue;
-      const std::int32_t triangle = index.getValue(c);
-      if (triangle < 0 || static_cast<std::size_t>(triangle) >= walls.mesh.triangle.size()) continue;
-      const BandPoint point = measure(walls, r, at, triangle);
-      if (std::abs(point.distance) <= r.half_width * r.lattice.dp) band.push_back(point);
-    }
-    std::sort(band.begin(), band.end(), [](const BandPoint& a, const BandPoint& b) {
-      return a.at.x != b.at.x ? a.at.x < b.at.x : (a.at.y != b.at.y ? a.at.y < b.at.y : a.at.z < b.at.z);
-    });
+    distance = openvdb::tools::meshToVolume<openvdb::FloatGrid>(mesh, *transform, width, width, openvdb::tools::UNSIGNED_DISTANCE_FIELD, nearest.get());
+    for (auto leaf = distance->tree().beginLeaf(); leaf; ++leaf) leaves.push_back({leaf.getLeaf(), nearest->tree().touchLeaf(leaf->origin()), {}});
+#pragma omp parallel for schedule(dynamic, 16)
+    for (std::size_t k = 0; k < leaves.size(); ++k) measure_leaf(leaves[k], walls, r);
   }
-  if (!vdb_path.empty()) write_grids(vdb_path, band, r, offset);
-  return band;
+  if (!vdb_path.empty()) {
+    openvdb::tools::changeBackground(nearest->tree(), 0);
+    openvdb::tools::pruneInactive(distance->tree());
+    openvdb::tools::pruneInactive(nearest->tree());
+    write_grids(vdb_path, distance, nearest, r.lattice, offset);
+  }
+  return in_order(leaves);
 }
 
 }  // namespace gdesp::geometry

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "geometry/columns.hpp"
 #include "geometry/gdal_support.hpp"
+#include "geometry/mesh_check.hpp"
 #include "geometry/mesh_reader.hpp"
 #include "geometry/raster_reader.hpp"
 
@@ -37,6 +38,9 @@ TriangleMesh read_sheet_mesh(const std::string& path, const Terrain& t, Notes& n
   TriangleMesh mesh = read_mesh(path);
   transform(mesh, {t.scale, t.scale, t.vertical_scale}, {0.0, 0.0, t.vertical_offset});
   if (t.vertical_scale < 0.0) flip(mesh);
+  const MeshReport report = check_and_repair(mesh, MeshPurpose::sheet);
+  if (report.verdict == MeshVerdict::refused) throw Error(ErrorKind::input, path + ": no terrain sheet: " + report.refusal);
+  for (const auto& what : report.done) notes.done.push_back(path + ": " + what);
   const std::size_t turned = turn_up(mesh);
   if (turned > 0 && turned < mesh.triangle.size()) {
     notes.done.push_back(path + ": " + std::to_string(turned) + " of " + std::to_string(mesh.triangle.size()) +
@@ -191,6 +195,7 @@ TerrainSheet load_terrain(const Scene& scene, Notes& notes) {
   }
   if (rasters == t.files.size()) {
     Raster raster = read_tiles(t.files, raster_options(t, ""));
+    if (const std::size_t n = fill_small_gaps(raster.field)) notes.done.push_back(t.files.front() + ": " + std::to_string(n) + " nodes without data, enclosed and few, filled from their rim");
     if (!t.bathymetry.empty()) burn_bathymetry(raster.field, scene, raster.crs, notes);
     sheet.mesh = scene.domain ? to_mesh(raster.field, &*scene.domain) : to_mesh(raster.field);
     sheet.spacing = std::sqrt(raster.field.dx * raster.field.dy);

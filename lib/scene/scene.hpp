@@ -163,6 +163,8 @@ struct Scene {
   Vec3d gravity{0.0, 0.0, -9.81};
   std::optional<Box> domain;              ///< default: from the geometry
   std::vector<std::string> periodic;      ///< "x", "y"
+  std::string wall_particles = "reachable";  ///< "reachable" | "all": where fluid can come to, or everywhere
+  double run_up = 0.0;                    ///< m above the highest water that counts as reachable; 0: from the expected speed
   double dp = 0.0;                        ///< m, particle spacing; required
   Fluid fluid;
   Terrain terrain;

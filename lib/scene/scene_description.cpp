@@ -186,6 +186,10 @@ void describe_domain(V& v, Scene& scene) {
   v.optional_vector({"lower", "m", "lower corner; default: from the geometry"}, lower);
   v.optional_vector({"upper", "m", "upper corner; default: from the geometry"}, upper);
   v.choices({"periodic", "", "axes along which the domain repeats"}, scene.periodic, {"x", "y"});
+  v.choice({"wall_particles", "", "wall particles only where water can come to, or on all terrain and walls"},
+           scene.wall_particles, {"reachable", "all"});
+  v.number({"run_up", "m", "height above the highest water that water may climb (wall_particles reachable); 0: v^2/2g at the expected speed"},
+           scene.run_up, not_negative);
   v.leave();
   if (lower && upper) scene.domain = Box{*lower, *upper};
 }

@@ -74,7 +74,11 @@ toml::table override_value(const Override& override) {
     if (override.value.find_first_of("\"'[]{}") != std::string::npos)
       throw Error(ErrorKind::input, origin + ": not a TOML value: " + describe(error));
   }
-  return toml::parse("value = " + toml_string(override.value), std::string_view(origin));
+  try {
+    return toml::parse("value = " + toml_string(override.value), std::string_view(origin));
+  } catch (const toml::parse_error& error) {  // bytes that are no UTF-8
+    throw Error(ErrorKind::input, "--set " + override.key + ": not a TOML value: " + describe(error));
+  }
 }
 
 bool is_table_array(const std::string& key) {

@@ -44,6 +44,18 @@ TEST(Heightfield, CropKeepsOneNodeMore) {
   EXPECT_EQ(c.at(0, 0), 302.0);
 }
 
+TEST(Heightfield, SmallEnclosedGapsAreFilledFromTheirRim) {
+  const auto plane = [](double x, double y) { return 3.0 + 0.5 * x - 0.25 * y; };
+  Heightfield f = field(0, 0, 1, 30, 30, plane);
+  for (int j = 10; j < 15; ++j) f.at(12, j) = f.at(13, j) = std::nan("");
+  f.at(0, 5) = std::nan("");                                                  // at the edge: not enclosed
+  for (int j = 18; j < 28; ++j) for (int i = 18; i < 28; ++i) f.at(i, j) = std::nan("");   // 100 nodes: too many
+  EXPECT_EQ(fill_small_gaps(f), 10u);
+  for (int j = 10; j < 15; ++j) EXPECT_NEAR(f.at(12, j), plane(12, j), 1e-6);   // a plane is its own membrane
+  EXPECT_TRUE(std::isnan(f.at(0, 5)));
+  EXPECT_TRUE(std::isnan(f.at(20, 20)));
+}
+
 TEST(Heightfield, EsriAsciiRefusesOblongCells) {
   Heightfield f = field(0, 0, 1, 2, 2, [](double, double) { return 0.0; });
   f.dy = 2.0;

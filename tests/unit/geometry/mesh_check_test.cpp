@@ -66,6 +66,45 @@ TEST(MeshCheck, DuplicatesAndDegeneratesGo) {
   EXPECT_NEAR(signed_volume(m), 1.0, 1e-12);
 }
 
+TEST(MeshCheck, TrianglesBackToBackGoADoubledFacetStaysOnce) {
+  TriangleMesh flap = box_mesh({{0, 0, 0}, {1, 1, 1}});
+  const Triangle edge = flap.triangle[0];
+  flap.vertex.push_back({3, 3, 3});
+  flap.triangle.push_back({edge.x, edge.y, 8});   // where two layers thin out to nothing
+  flap.triangle.push_back({edge.y, edge.x, 8});
+  const MeshReport r = check_and_repair(flap, MeshPurpose::solid);
+  EXPECT_EQ(r.verdict, MeshVerdict::repaired) << r.refusal;
+  EXPECT_EQ(flap.triangle.size(), 12u);
+  EXPECT_NEAR(signed_volume(flap), 1.0, 1e-12);
+  TriangleMesh twice = box_mesh({{0, 0, 0}, {1, 1, 1}});
+  twice.triangle.push_back({twice.triangle[5].x, twice.triangle[5].z, twice.triangle[5].y});
+  EXPECT_EQ(check_and_repair(twice, MeshPurpose::solid).verdict, MeshVerdict::repaired);
+  EXPECT_NEAR(signed_volume(twice), 1.0, 1e-12);
+}
+
+TEST(MeshCheck, TheWidestHoleIsNamed) {
+  TriangleMesh m = sphere({0, 0, 0}, 1.0, 20);
+  m.triangle.erase(m.triangle.begin() + 718, m.triangle.begin() + 720);
+  std::erase_if(m.triangle, [&](const Triangle& t) { return m.vertex[t.x].z < -0.3; });
+  EXPECT_MENTIONS(check_and_repair(m, MeshPurpose::solid).refusal, "widest of its 2 holes around");
+}
+
+TEST(MeshCheck, SmallHolesInASheetAreClosedLargeOnesStay) {
+  const auto with_hole = [](int cells) {
+    Heightfield f = field(0, 0, 1, 101, 101, [](double x, double y) { return 0.1 * x + 0.2 * y; });
+    for (int j = 50; j < 50 + cells; ++j) {
+      for (int i = 50; i < 50 + cells; ++i) f.at(i, j) = std::nan("");
+    }
+    return to_mesh(f);
+  };
+  TriangleMesh small = with_hole(2), large = with_hole(20);
+  const std::size_t rim = border_edges(to_mesh(field(0, 0, 1, 101, 101, [](double, double) { return 0.0; })));
+  EXPECT_EQ(check_and_repair(small, MeshPurpose::sheet).verdict, MeshVerdict::repaired);
+  EXPECT_EQ(border_edges(small), rim);
+  EXPECT_EQ(check_and_repair(large, MeshPurpose::sheet).verdict, MeshVerdict::usable);
+  EXPECT_GT(border_edges(large), rim);
+}
+
 TEST(MeshCheck, TwoTouchingBoxesAreCutApartAFinIsRefused) {
   TriangleMesh two = box_mesh({{0, 0, 0}, {1, 1, 1}});
   append(two, box_mesh({{1, 1, 0}, {2, 2, 1}}));   // they share one vertical edge

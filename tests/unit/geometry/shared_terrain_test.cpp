@@ -42,24 +42,46 @@ TEST(SharedTerrain, AlpeGeraVolumes) {
 
 TEST(SharedTerrain, CampoMoroVolume) {
   NEEDS("alpe_gera_it");
-  Scene s = lake("alpe_gera_it/Alpe_Gera_dam_break_no_volume_correction.obj", 1953.0, 4.0);
-  s.fluid.fill[0].polygon = {{71245, 34335}, {72045, 34335}, {72045, 33865}, {71245, 33865}};
-  s.domain = Box{{71100, 33700, 1850}, {72200, 34500, 2050}};
+  for (const double dp : {8.0, 4.0}) {
+    Scene s = lake("alpe_gera_it/Alpe_Gera_dam_break_no_volume_correction.obj", 1953.0, dp);
+    s.fluid.fill[0].polygon = {{71245, 34335}, {72045, 34335}, {72045, 33865}, {71245, 33865}};
+    s.domain = Box{{71100, 33700, 1850}, {72200, 34500, 2050}};
+    BuildReport report;
+    build_case(s, report);
+    EXPECT_NEAR(report.fills[0].exact_volume, 0.92e6, 0.01 * 0.92e6) << dp;
+    EXPECT_NEAR(report.fills[0].volume, 0.92e6, 0.02 * 0.92e6) << dp;
+  }
+}
+
+Scene rotoma(const std::string& bed, double dp) {
+  Scene s = lake(bed, 313.30, dp);
+  s.fluid.fill[0].seed = Point2{1915527, 5783671};
+  s.domain = Box{{1911500, 5779500, 180}, {1918500, 5786500, 400}};
+  return s;
+}
+
+void expect_rotoma(const Scene& s) {
   BuildReport report;
-  build_case(s, report);
-  EXPECT_NEAR(report.fills[0].exact_volume, 0.92e6, 0.01 * 0.92e6);
-  EXPECT_NEAR(report.fills[0].volume, 0.92e6, 0.02 * 0.92e6);
+  build_case(s, report, {}, {}, BuildScope::counts_only);
+  EXPECT_NEAR(report.fills[0].exact_volume, 436e6, 0.01 * 436e6) << s.dp;
+  EXPECT_NEAR(report.fills[0].surface_area, 11.1e6, 0.03 * 11.1e6) << s.dp;
 }
 
 TEST(SharedTerrain, RotomaFromTheMergedBed) {
   NEEDS("rotoma_nz");
-  Scene s = lake("rotoma_nz/derived_bed_32m.tif", 313.30, 16.0);
-  s.fluid.fill[0].seed = Point2{1915527, 5783671};
-  s.domain = Box{{1911500, 5779500, 180}, {1918500, 5786500, 400}};
-  BuildReport report;
-  build_case(s, report, {}, {}, BuildScope::counts_only);
-  EXPECT_NEAR(report.fills[0].exact_volume, 436e6, 0.01 * 436e6);
-  EXPECT_NEAR(report.fills[0].surface_area, 11.1e6, 0.03 * 11.1e6);
+  for (const double dp : {32.0, 16.0}) expect_rotoma(rotoma("rotoma_nz/derived_bed_32m.tif", dp));
+}
+
+/// Sonar points in longitude and latitude with negative depths, burned into a raster of another coordinate system.
+TEST(SharedTerrain, RotomaWithItsBathymetryBurnedIn) {
+  NEEDS("rotoma_nz");
+  for (const double dp : {32.0, 16.0}) {
+    Scene s = rotoma("rotoma_nz/dem_32m.tif", dp);
+    s.terrain.bathymetry = terrain + "rotoma_nz/depth_points.csv.gz";
+    s.terrain.bathymetry_crs = "EPSG:4326";
+    s.terrain.bathymetry_offset = 313.30;
+    expect_rotoma(s);
+  }
 }
 
 TEST(SharedTerrain, LandlabSlideVolume) {
@@ -73,9 +95,12 @@ TEST(SharedTerrain, LandlabSlideVolume) {
   slide.shape.thickness = terrain + "landlab_runout/landslide_depth.asc";
   slide.shape.polygon = {{361000, 70000}, {362000, 70000}, {362000, 71500}, {361000, 71500}};
   s.slides = {slide};
-  BuildReport report;
-  build_case(s, report, {}, {}, BuildScope::counts_only);
-  EXPECT_NEAR(report.slides[0].volume, 22481.0, 0.01 * 22481.0);
+  for (const double dp : {5.0, 2.5}) {
+    s.dp = dp;
+    BuildReport report;
+    build_case(s, report, {}, {}, BuildScope::counts_only);
+    EXPECT_NEAR(report.slides[0].volume, 22481.0, 0.01 * 22481.0) << dp;
+  }
 }
 
 TEST(SharedTerrain, GzippedUsgsDemAndXyz) {
