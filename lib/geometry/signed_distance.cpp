@@ -95,7 +95,7 @@ void measure_leaf(Leaf& leaf, const WallSurfaces& walls, const BandRequest& r) {
 }
 
 /// Ordered by (i, j, k). Leaves come in an order in which those above one another ascend, so counting by column is enough.
-std::vector<BandPoint> in_order(const std::vector<Leaf>& leaves) {
+std::vector<BandPoint> in_order(std::vector<Leaf>& leaves) {
   Index3 low{INT32_MAX, INT32_MAX, 0}, high{INT32_MIN, INT32_MIN, 0};
   for (const auto& leaf : leaves) {
     for (const auto& p : leaf.points) {
@@ -112,8 +112,9 @@ std::vector<BandPoint> in_order(const std::vector<Leaf>& leaves) {
   }
   for (std::size_t c = 0; c < columns; ++c) next[c + 1] += next[c];
   std::vector<BandPoint> out(next[columns]);
-  for (const auto& leaf : leaves) {
+  for (auto& leaf : leaves) {
     for (const auto& p : leaf.points) out[next[column(p)]++] = p;
+    leaf.points = {};   // never all of it twice
   }
   return out;
 }

@@ -42,7 +42,7 @@ TEST(SharedTerrain, AlpeGeraVolumes) {
 
 TEST(SharedTerrain, CampoMoroVolume) {
   NEEDS("alpe_gera_it");
-  for (const double dp : {8.0, 4.0}) {
+  for (const double dp : {4.0, 2.0}) {   // a shallow lake with a flat bed: its depth is rounded to whole spacings
     Scene s = lake("alpe_gera_it/Alpe_Gera_dam_break_no_volume_correction.obj", 1953.0, dp);
     s.fluid.fill[0].polygon = {{71245, 34335}, {72045, 34335}, {72045, 33865}, {71245, 33865}};
     s.domain = Box{{71100, 33700, 1850}, {72200, 34500, 2050}};
