@@ -50,7 +50,7 @@ FillSpace fill_space(const Layout& layout, ColumnIntervals& walls) {
 
 /// Unset: everywhere.
 std::optional<WaterReach> wanted_walls(const Layout& layout, const FillSpace& space, const ColumnIntervals& walls, const std::vector<Vec3d>& water, BuildReport& report) {
-  if (layout.scene.wall_particles == "all") return std::nullopt;
+  if (layout.scene.wall_particles == "all" || !layout.scene.periodic.empty()) return std::nullopt;   // what leaves at one side comes in at the other
   const double run_up = layout.scene.run_up > 0.0 ? layout.scene.run_up : default_run_up(layout.scene, layout.parts, water);
   std::optional<WaterReach> reach = reach_of_water(space, walls, water, run_up);
   if (!reach || reach->share > 0.999) return std::nullopt;

@@ -2,8 +2,8 @@
 // The boundary grid: signed distance to the scene's walls in a narrow band, on the particle lattice, with a material
 // id, as a sparse OpenVDB grid. Memory grows with the walls' area.
 //
-// Distances are exact to the nearest triangle (OpenVDB's mesh-to-volume conversion, which needs no closed surface);
-// the sign comes from the columns' inside test, so open terrain sheets and dirty solids are no trouble.
+// Distances are exact to the nearest triangle: each triangle competes for the lattice points within the band around it,
+// block by block of 8 x 8 columns, which needs no closed surface. The sign comes from the columns' inside test, so open terrain sheets and dirty solids are no trouble.
 #pragma once
 
 #include <string>

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/body_builder.hpp"
 #include "geometry/boundary_layers.hpp"
 
 namespace gdesp::geometry {
@@ -54,6 +55,14 @@ std::vector<bool> widened(const std::vector<bool>& marked, const ColumnGrid& g) 
   return out;
 }
 
+double largest_speed(const PrescribedMotion& motion) {
+  double speed = 0.0;
+  for (std::size_t k = 1; k < motion.time.size(); ++k) {
+    speed = std::max(speed, norm(motion.displacement[k] - motion.displacement[k - 1]) / (motion.time[k] - motion.time[k - 1]));
+  }
+  return speed;
+}
+
 double share_of_ground(const std::vector<bool>& kept, const FillSpace& s) {
   std::size_t all = 0, in = 0;
   for (std::size_t c = 0; c < kept.size(); ++c) {
@@ -76,6 +85,8 @@ double default_run_up(const Scene& scene, const SceneParts& parts, const std::ve
     for (const auto& s : parts.slides) top = std::max(top, bounds(s.mesh).upper.z);
     speed = std::sqrt(2.0 * g * (high - low + scene.dp));
     if (top > low) speed = std::max(speed, slide_efficiency * std::sqrt(2.0 * g * (top - low)));
+    for (const auto& s : scene.slides) speed = std::max(speed, norm(s.velocity));
+    for (const auto& body : scene.moving) speed = std::max(speed, largest_speed(moving_body(body).motion));
   }
   return speed * speed / (2.0 * g);
 }

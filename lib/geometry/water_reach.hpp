@@ -24,7 +24,8 @@ struct WaterReach {
 };
 
 /// Height to which water climbs at the scene's largest expected speed (m): v^2/2g with v = numerics.expected_speed, or without it
-/// the larger of sqrt(2 g depth) and 0.7 sqrt(2 g fall) with the fall of the highest slide to the water's deepest point.
+/// the largest of sqrt(2 g depth), 0.7 sqrt(2 g fall) with the fall of the highest slide to the water's deepest point, and the speeds of
+/// slides at the start and of prescribed bodies.
 double default_run_up(const Scene& scene, const SceneParts& parts, const std::vector<Vec3d>& water);
 
 /// nullopt when there is no water (nothing is left out then). `walls`: what stands still, on the space's columns; `run_up`: m
