@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Grains and water: porosity, what the water does to the grains, and its exact reaction.
 // @eq coupling.porosity
-//   eps_a = 1 - sum_i V_i W_ai(h_c), not below porosity_floor; at a grain eps_i = sum_a eps_a V_a W_ia / S_i,
-//   u_i = sum_a v_a V_a W_ia / S_i, S_i = sum_a V_a W_ia. V_a: volume of mixture of fluid particle a (mass over
-//   superficial density) [m3]; V_i: volume of the grain [m3]; h_c: coupling length, at least two grain diameters [m].
+//   eps_a = 1 - sum_i V_i (w_i/S_i) W_ai(h_c) / (1 - S_wall,a), not below least_porosity; at a grain
+//   eps_i = sum_a eps_a V_a W_ia / S_f, u_i = sum_a v_a V_a W_ia / S_f, S_f = sum_a V_a W_ia, S_i with walls (coupling.buoyancy).
+//   V_a: volume of mixture of fluid particle a (mass over superficial density) [m3]; V_i: volume of the grain [m3]; h_c:
+//   coupling length, at least two grain diameters [m]; w_i: immersion, a grain out of the water takes no room in it;
+//   1 - S_wall,a: beside a wall half of the grains are missing, and half of the room. Interior and wet: w/S = 1.
 //   Source: eqs 12, 13, 18 of the paper as meant (physics errata); Robinson, Ramaioli, Luding (2014), eqs 10-14,
-//   doi:10.1016/j.ijmultiphaseflow.2013.11.003.
-// @eq coupling.buoyancy
-//   f_i = V_i (sum_a m_a a_a W_ia)/S_i, a_a: acceleration of fluid particle a by pressure and viscosity [m/s2]: the
-//   Shepard-corrected (-grad P + div tau) at the grain, right up to free surfaces and walls. Robinson et al. (2014), eq 17.
-//   Faded in over 0.35 < S_i < 0.65: a grain out of the water feels none.
+//   doi:10.1016/j.ijmultiphaseflow.2013.11.003; walls and immersion: own.
 // @eq coupling.reaction
-//   f_a = -V_a sum_i F_i W_ai / S_i, so that sum_a f_a = -sum_i F_i. F_i: all fluid forces on grain i, averaged over
-//   the step [N]. Eqs 17-18 of the paper.
+//   f_a = -sum_i F_ia - V_a sum_i D_i W_ai / S_f, so that sum_a f_a = -sum_i (force of the water on grain i). F_ia: pressure
+//   (coupling.buoyancy); D_i: drag and added mass on grain i, averaged over the step [N]. Eqs 17-18 of the paper.
 // @eq coupling.added-mass
 //   f_i = C_m rho V_i (Du/Dt - dv/dt), C_m = 1/2 for a sphere; faded out from eps = 0.9 to 0.6 (explicit coupling is not
 //   stable with it in a packed bed). Source: Maxey and Riley (1983), doi:10.1063/1.864230.
@@ -39,6 +37,8 @@ struct CouplingLaw {
 
 /// Lowest porosity the laws are given (random loose packings lie near 0.4; closer is outside Ergun's data).
 inline constexpr float porosity_floor = 0.3f;
+/// Lowest porosity that the water sees (discs can be packed to 0.1).
+inline constexpr float least_porosity = 0.1f;
 
 template <class Exec>
 class GrainFluidCoupling {
@@ -51,10 +51,11 @@ class GrainFluidCoupling {
   /// False when no grain is in reach of water: nothing else needs to be called.
   bool in_contact() const { return grain_fluid_.entries() > 0; }
 
-  /// Packs the grains' records at their place now.
-  void place(const dem::GrainSystem<Exec>& grains);
-  /// Porosity at the fluid particles.
-  void update_porosity(sph::FluidSystem<Exec>& fluid);
+  /// Packs the grains' records where they will be in `ahead` seconds at their present velocity: half a step makes the
+  /// coupling a leapfrog (at their place now it is explicit Euler, which feeds energy into waves between grains and water).
+  void place(const dem::GrainSystem<Exec>& grains, double ahead);
+  /// Porosity at the fluid particles, from the grains as placed.
+  void update_porosity(sph::FluidSystem<Exec>& fluid, Index grain_clusters);
   /// From the fluid's records and its accelerations: drag coefficient, fluid velocity, other force and added mass of
   /// the grains for a step dt (s).
   void gather_forces(dem::GrainSystem<Exec>& grains, const sph::FluidSystem<Exec>& fluid, float dt);
@@ -63,29 +64,32 @@ class GrainFluidCoupling {
 
   /// By grain slot at the last gather_forces.
   const float* porosity() const { return porosity_.data(); }
-  /// N: sum of the forces that the last react() took from the grains, for the check of the balance.
-  Vec3d reaction_of_grains() const;
   double smoothing_length() const { return law_.smoothing_length; }
 
   /// The members that a checkpoint keeps (exec/state_archive.hpp).
   template <class Archive>
   void archive(Archive& a) {
-    a(grain_fluid_, fluid_grain_, fluid_slots_, grain_slots_, record_, sums_, velocity_before_, porosity_,
-      drag_coefficient_, added_mass_, fluid_velocity_, other_force_, reaction_);
+    a(grain_fluid_, fluid_grain_, grain_wall_, fluid_wall_, fluid_slots_, grain_slots_, record_, sums_, water_, solid_,
+      velocity_before_, porosity_, drag_coefficient_, added_mass_, fluid_velocity_, other_force_, inertia_force_, reaction_);
   }
 
  private:
+  float lattice_volume() const;                              ///< m3, or m2 in two dimensions
+  void pack_water(const sph::FluidSystem<Exec>& fluid);
+
   Exec exec_;
   Domain domain_;
   CouplingLaw law_;
-  ClusterList<Exec> grain_fluid_, fluid_grain_;
+  ClusterList<Exec> grain_fluid_, fluid_grain_, grain_wall_, fluid_wall_;
   Index fluid_slots_ = 0, grain_slots_ = 0;
   Array<float, Exec> real_diameter_;
-  Array<float, Exec> record_;            ///< x y z V | Fx/S Fy/S Fz/S S, 4 each, per cluster
-  Array<float, Exec> sums_;              ///< 8 rows of 4 per cluster, as gathered
+  Array<float, Exec> record_;            ///< x y z V w/S | D/S (3) and offset (coupling.buoyancy), 4 each, per cluster
+  Array<float, Exec> sums_;              ///< 16 rows of 4 per cluster, as gathered
+  Array<float, Exec> water_;             ///< volume (m3) and pressure (Pa) of the water, 4 each, per cluster
+  Array<float, Exec> solid_;             ///< share of grains and of walls around the water, 4 each, per cluster
   Array<Vec3f, Exec> velocity_before_;   ///< m/s, when placed
   Array<float, Exec> porosity_, drag_coefficient_, added_mass_;
-  Array<Vec3f, Exec> fluid_velocity_, other_force_;
+  Array<Vec3f, Exec> fluid_velocity_, other_force_, inertia_force_;
   Array<float, Exec> reaction_;          ///< 3 rows of 4 per fluid cluster
 };
 

@@ -32,7 +32,7 @@ void CoupledSimulation<Exec>::start_grains(const SimulationInput& input) {
   coupling_skin_ = 0.25 * law.smoothing_length;
   refresh_coupling(0.0, true);
   if (coupling_->in_contact() && input.fluid.mass_share.empty()) {
-    coupling_->update_porosity(fluid_);
+    coupling_->update_porosity(fluid_, grains_->set().clusters());
     fluid_.thin_by_porosity();
   }
 }
@@ -51,10 +51,10 @@ void CoupledSimulation<Exec>::refresh_coupling(double move, bool fluid_sorted) {
 }
 
 template <class Exec>
-void CoupledSimulation<Exec>::porosity_now() {
+void CoupledSimulation<Exec>::porosity_now(double ahead) {
   if (!grains_in_water()) return;
-  coupling_->place(*grains_);
-  coupling_->update_porosity(fluid_);
+  coupling_->place(*grains_, ahead);
+  coupling_->update_porosity(fluid_, grains_->set().clusters());
   fluid_.pack();
 }
 
@@ -100,7 +100,7 @@ void CoupledSimulation<Exec>::advance_grains(double dt) {
 using Backend = exec::CompiledBackend;
 template void CoupledSimulation<Backend>::start_grains(const SimulationInput&);
 template void CoupledSimulation<Backend>::refresh_coupling(double, bool);
-template void CoupledSimulation<Backend>::porosity_now();
+template void CoupledSimulation<Backend>::porosity_now(double);
 template void CoupledSimulation<Backend>::couple_grains(double);
 template int CoupledSimulation<Backend>::substeps_for(double) const;
 template void CoupledSimulation<Backend>::advance_grains(double);

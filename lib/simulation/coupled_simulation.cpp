@@ -98,7 +98,7 @@ template <class Exec>
 void CoupledSimulation<Exec>::fluid_split_step(float dt) {
   place_bodies(time_ + 0.5 * static_cast<double>(dt));
   fluid_.half_drift(0.5f * dt, density_lag_ + 0.5f * dt);
-  porosity_now();
+  porosity_now(0.5 * static_cast<double>(dt));
   if (input_.fluid_parameters.extrapolated_walls) {
     fluid_.extrapolate_walls();
   } else {
@@ -118,7 +118,7 @@ template <class Exec>
 void CoupledSimulation<Exec>::fluid_verlet_step(float dt) {
   place_bodies(time_ + static_cast<double>(dt));
   fluid_.verlet_predict(dt);
-  porosity_now();
+  porosity_now(0.5 * static_cast<double>(dt));
   if (input_.fluid_parameters.extrapolated_walls) {
     fluid_.extrapolate_walls();
   } else {

@@ -42,7 +42,7 @@ class CoupledSimulation final : public Simulation {
   void start_grains(const SimulationInput& input);
   bool grains_in_water() const { return coupling_ && coupling_->in_contact(); }
   void refresh_coupling(double fluid_move, bool fluid_sorted);
-  void porosity_now();
+  void porosity_now(double ahead);
   void couple_grains(double dt);
   void advance_grains(double dt);
   int substeps_for(double dt) const;

@@ -102,8 +102,12 @@ struct FinishWalls {
   float* walls;
   GDESP_HD void operator()(Index slot) const {
     const Index c = slot / exec::cluster_size;
-    if (count[c] == 0) return;
     float* r = walls + record_offset(c) + slot % exec::cluster_size;
+    if (count[c] == 0) {  // no water near: no pressure left over from earlier
+      r[row_A] = 0.0f;
+      r[row_B] = 1.0f;
+      return;
+    }
     const float weight = r[row_B];
     const float A = weight > 1.0e-6f ? real::max(r[row_A] / weight, 0.0f) : 0.0f;
     r[row_A] = A;
