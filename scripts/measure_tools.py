@@ -115,6 +115,30 @@ def frame_near(run, time, kind="fluid"):
     return t, read_vtp(path)
 
 
+def connected_front(grains, direction=0, gap=0.25):
+    """Outer edge (m) along an axis of the largest heap of grains that touch, or nearly: `gap` of a diameter apart at most."""
+    places, sizes = grains["position"], grains["diameter"]
+    width = (1.0 + gap) * max(sizes)
+    cells = {}
+    for k, r in enumerate(places):
+        cells.setdefault(tuple(math.floor(c / width) for c in r), []).append(k)
+    heap_of, largest = {}, []
+    for seed in range(len(places)):
+        if seed in heap_of:
+            continue
+        heap, heap_of[seed] = [seed], seed
+        for k in heap:  # grows while it is walked
+            home = tuple(math.floor(c / width) for c in places[k])
+            for cell in ((home[0] + i, home[1] + j, home[2] + m) for i in (-1, 0, 1) for j in (-1, 0, 1) for m in (-1, 0, 1)):
+                for other in cells.get(cell, ()):
+                    reach = (0.5 + 0.5 * gap) * (sizes[k] + sizes[other])
+                    if other not in heap_of and math.dist(places[k], places[other]) < reach:
+                        heap_of[other] = seed
+                        heap.append(other)
+        largest = max(largest, heap, key=len)
+    return max(places[k][direction] + 0.5 * sizes[k] for k in largest)
+
+
 def root_mean_square(values):
     values = list(values)
     return math.sqrt(sum(v * v for v in values) / len(values)) if values else math.nan

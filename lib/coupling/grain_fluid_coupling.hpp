@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Grains and water: porosity, what the water does to the grains, and its exact reaction.
 // @eq coupling.porosity
-//   eps_a = 1 - sum_i V_i (w_i/S_i) W_ai(h_c) / (1 - S_wall,a), not below least_porosity; at a grain
-//   eps_i = sum_a eps_a V_a W_ia / S_f, u_i = sum_a v_a V_a W_ia / S_f, S_f = sum_a V_a W_ia, S_i with walls (coupling.buoyancy).
+//   eps_a = 1 - sum_i V_i (w_i/N_i) W_ai(h_c) / (1 - S_wall,a), not below least_porosity; at a grain
+//   eps_i = sum_a eps_a u_a W_ia / N_i, v_i = sum_a v_a u_a W_ia / N_i, N_i = sum_a u_a W_ia, u_a = V_a/(1 - S_wall,a).
 //   V_a: volume of mixture of fluid particle a (mass over superficial density) [m3]; V_i: volume of the grain [m3]; h_c:
-//   coupling length, at least two grain diameters [m]; w_i: immersion, a grain out of the water takes no room in it;
-//   1 - S_wall,a: beside a wall half of the grains are missing, and half of the room. Interior and wet: w/S = 1.
+//   coupling length, at least two grain diameters [m]; w_i: immersion (coupling.buoyancy), a dry grain takes no room in the
+//   water; S_wall,a = sum_w V_w W_aw: beside a wall half of the grains are missing, and half of the room. In the deep N = 1.
 //   Source: eqs 12, 13, 18 of the paper as meant (physics errata); Robinson, Ramaioli, Luding (2014), eqs 10-14,
 //   doi:10.1016/j.ijmultiphaseflow.2013.11.003; walls and immersion: own.
 // @eq coupling.reaction
-//   f_a = -sum_i F_ia - V_a sum_i D_i W_ai / S_f, so that sum_a f_a = -sum_i (force of the water on grain i). F_ia: pressure
+//   f_a = -sum_i F_ia - u_a sum_i D_i W_ai / N_i, so that sum_a f_a = -sum_i (force of the water on grain i). F_ia: pressure
 //   (coupling.buoyancy); D_i: drag and added mass on grain i, averaged over the step [N]. Eqs 17-18 of the paper.
 // @eq coupling.added-mass
 //   f_i = C_m rho V_i (Du/Dt - dv/dt), C_m = 1/2 for a sphere; faded out from eps = 0.9 to 0.6 (explicit coupling is not
@@ -56,9 +56,11 @@ class GrainFluidCoupling {
   void place(const dem::GrainSystem<Exec>& grains, double ahead);
   /// Porosity at the fluid particles, from the grains as placed.
   void update_porosity(sph::FluidSystem<Exec>& fluid, Index grain_clusters);
-  /// From the fluid's records and its accelerations: drag coefficient, fluid velocity, other force and added mass of
-  /// the grains for a step dt (s).
-  void gather_forces(dem::GrainSystem<Exec>& grains, const sph::FluidSystem<Exec>& fluid, float dt);
+  /// At the start: porosity, and water at its true density in the pores. Room and porosity depend on each other.
+  void start_porosity(const dem::GrainSystem<Exec>& grains, sph::FluidSystem<Exec>& fluid);
+  /// From the fluid's records: drag coefficient, fluid velocity, other force and added mass of the grains for a step dt
+  /// (s). Leaves the mixture pressure in the records, for the fluid's momentum, which is next.
+  void gather_forces(dem::GrainSystem<Exec>& grains, sph::FluidSystem<Exec>& fluid, float dt);
   /// The reaction to what the grains took since gather_forces: external acceleration of the fluid.
   void react(const dem::GrainSystem<Exec>& grains, sph::FluidSystem<Exec>& fluid, float dt);
 
@@ -69,24 +71,25 @@ class GrainFluidCoupling {
   /// The members that a checkpoint keeps (exec/state_archive.hpp).
   template <class Archive>
   void archive(Archive& a) {
-    a(grain_fluid_, fluid_grain_, grain_wall_, fluid_wall_, fluid_slots_, grain_slots_, record_, sums_, water_, solid_,
+    a(grain_fluid_, fluid_grain_, fluid_wall_, fluid_slots_, grain_slots_, record_, sums_, water_,
       velocity_before_, porosity_, drag_coefficient_, added_mass_, fluid_velocity_, other_force_, inertia_force_, reaction_);
   }
 
  private:
+  enum class Start { none, guess, settle };
+  void find_porosity(sph::FluidSystem<Exec>& fluid, Index grain_clusters, Start start);
   float lattice_volume() const;                              ///< m3, or m2 in two dimensions
   void pack_water(const sph::FluidSystem<Exec>& fluid);
 
   Exec exec_;
   Domain domain_;
   CouplingLaw law_;
-  ClusterList<Exec> grain_fluid_, fluid_grain_, grain_wall_, fluid_wall_;
+  ClusterList<Exec> grain_fluid_, fluid_grain_, fluid_wall_;
   Index fluid_slots_ = 0, grain_slots_ = 0;
   Array<float, Exec> real_diameter_;
-  Array<float, Exec> record_;            ///< x y z V w/S | D/S (3) and offset (coupling.buoyancy), 4 each, per cluster
-  Array<float, Exec> sums_;              ///< 16 rows of 4 per cluster, as gathered
-  Array<float, Exec> water_;             ///< volume (m3) and pressure (Pa) of the water, 4 each, per cluster
-  Array<float, Exec> solid_;             ///< share of grains and of walls around the water, 4 each, per cluster
+  Array<float, Exec> record_;            ///< x y z V w/N | D/N (3) and offset (coupling.buoyancy), 4 each, per cluster
+  Array<float, Exec> sums_;              ///< 12 rows of 4 per cluster, as gathered
+  Array<float, Exec> water_;             ///< u (m3), pressure (Pa), 1/(1 - S_wall) of the water, 4 each, per cluster
   Array<Vec3f, Exec> velocity_before_;   ///< m/s, when placed
   Array<float, Exec> porosity_, drag_coefficient_, added_mass_;
   Array<Vec3f, Exec> fluid_velocity_, other_force_, inertia_force_;

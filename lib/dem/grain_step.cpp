@@ -198,7 +198,13 @@ struct GrainStep {
     const GrainRecord& own = v.now[i];
     if (own.radius < 0.0f) return {};
     if (own.mobility == 0.0f) {
-      if (lanes.leader()) v.next[i] = own;
+      if (lanes.leader()) {
+        v.next[i] = own;
+        if (v.fluid.drag_coefficient) {  // held against the flow: all that drag gives
+          const Vec3d pull = static_cast<Vec3d>(v.fluid.fluid_velocity[i]) * static_cast<double>(v.fluid.drag_coefficient[i]);
+          v.fluid.drag_impulse[i] += pull * static_cast<double>(v.half.before + v.half.after);
+        }
+      }
       return {};
     }
     const RowRange range = v.contacts.range[i];

@@ -360,6 +360,7 @@ void GrainSystem<Exec>::advance(double dt, int substeps) {
     }
   }
   const double h = dt / substeps;
+  kicked_ = half_before_ + (substeps - 0.5) * h;
   for (int k = 0; k < substeps; ++k) {
     const std::vector<BodyMoment> now = moments(static_cast<double>(k) / substeps, dt);
     if (stale(now)) rebuild(now, !fluid_.drag_coefficient);  // sorting costs a tenth of listing

@@ -80,6 +80,8 @@ class GrainSystem {
                  const float* added_mass);
   const Vec3d* drag_impulse() const { return drag_impulse_.data(); }   ///< N s, given by the fluid since the last clear
   void clear_drag_impulse();
+  /// s: time for which the last advance() applied constant forces (half steps lag behind: not exactly its dt).
+  double kicked() const { return kicked_; }
 
   /// What grains gave to bodies 1, 2, ... since the last call.
   std::vector<BodyImpulse> take_body_impulses();
@@ -131,7 +133,7 @@ class GrainSystem {
   Vec3d gravity_;
   double largest_radius_ = 0.0, smallest_radius_ = 0.0, mean_diameter_ = 0.0;
   double critical_time_ = 0.0, skin_ = 0.0;
-  double time_ = 0.0, half_before_ = 0.0;
+  double time_ = 0.0, half_before_ = 0.0, kicked_ = 0.0;
   float moved2_ = 0.0f, speed2_ = 0.0f, overlap_ = 0.0f;
   double drift_ = 0.0;                            // m: no grain moved farther since it was sorted
   double odometer_ = 0.0;                         // m: no grain and body together moved farther since the start

@@ -132,7 +132,7 @@ void describe_contact(V& v, Contact& c) {
   v.number({"wall_friction", "1", "Coulomb coefficient with walls and bodies; < 0: as friction"}, c.wall_friction,
            any_number);
   v.number({"rolling_friction", "1", "rolling resistance coefficient"}, c.rolling_friction, not_negative);
-  v.number({"cohesion", "J/m2", "surface energy of cohesion"}, c.cohesion, not_negative);
+  v.number({"cohesion", "J/m2", "work of adhesion between two grains (DMT), twice the surface energy"}, c.cohesion, not_negative);
   v.leave();
 }
 

@@ -32,8 +32,7 @@ void CoupledSimulation<Exec>::start_grains(const SimulationInput& input) {
   coupling_skin_ = 0.25 * law.smoothing_length;
   refresh_coupling(0.0, true);
   if (coupling_->in_contact() && input.fluid.mass_share.empty()) {
-    coupling_->update_porosity(fluid_, grains_->set().clusters());
-    fluid_.thin_by_porosity();
+    coupling_->start_porosity(*grains_, fluid_);
   }
 }
 
@@ -59,6 +58,13 @@ void CoupledSimulation<Exec>::porosity_now(double ahead) {
 }
 
 template <class Exec>
+void CoupledSimulation<Exec>::gather_forces(double dt) {
+  if (!grains_in_water()) return;
+  water_reset_ = false;
+  coupling_->gather_forces(*grains_, fluid_, static_cast<float>(dt));
+}
+
+template <class Exec>
 void CoupledSimulation<Exec>::couple_grains(double dt) {
   if (!grains_) return;
   if (!grains_in_water()) {
@@ -70,8 +76,6 @@ void CoupledSimulation<Exec>::couple_grains(double dt) {
     advance_grains(dt);
     return;
   }
-  water_reset_ = false;
-  coupling_->gather_forces(*grains_, fluid_, static_cast<float>(dt));
   advance_grains(dt);
   coupling_->react(*grains_, fluid_, static_cast<float>(dt));
 }
@@ -101,6 +105,7 @@ using Backend = exec::CompiledBackend;
 template void CoupledSimulation<Backend>::start_grains(const SimulationInput&);
 template void CoupledSimulation<Backend>::refresh_coupling(double, bool);
 template void CoupledSimulation<Backend>::porosity_now(double);
+template void CoupledSimulation<Backend>::gather_forces(double);
 template void CoupledSimulation<Backend>::couple_grains(double);
 template int CoupledSimulation<Backend>::substeps_for(double) const;
 template void CoupledSimulation<Backend>::advance_grains(double);

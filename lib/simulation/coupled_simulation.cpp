@@ -105,6 +105,7 @@ void CoupledSimulation<Exec>::fluid_split_step(float dt) {
     fluid_.wall_continuity_pass();
     fluid_.evolve_dynamic_walls(dt);
   }
+  gather_forces(static_cast<double>(dt));
   fluid_.momentum_pass();
   fluid_.find_walls();
   couple_grains(static_cast<double>(dt));
@@ -125,6 +126,7 @@ void CoupledSimulation<Exec>::fluid_verlet_step(float dt) {
     fluid_.wall_continuity_pass();
     fluid_.evolve_dynamic_walls(dt);
   }
+  gather_forces(static_cast<double>(dt));
   fluid_.combined_pass();
   couple_grains(static_cast<double>(dt));
   fluid_.verlet_correct(dt);

@@ -43,6 +43,7 @@ class CoupledSimulation final : public Simulation {
   bool grains_in_water() const { return coupling_ && coupling_->in_contact(); }
   void refresh_coupling(double fluid_move, bool fluid_sorted);
   void porosity_now(double ahead);
+  void gather_forces(double dt);
   void couple_grains(double dt);
   void advance_grains(double dt);
   int substeps_for(double dt) const;

@@ -38,15 +38,18 @@ struct GatherWrapped {
   }
 };
 
-struct Thin {
+struct CopyFloats {
+  const float* from;
+  float* to;
+  GDESP_HD void operator()(Index s) const { to[s] = from[s]; }
+};
+struct FillPores {
   const std::uint32_t* id;
   const float* porosity;
+  const float* true_density;
   float* density;
-  float* mass_share;
   GDESP_HD void operator()(Index s) const {
-    if (id[s] == no_particle) return;
-    mass_share[s] *= porosity[s];
-    density[s] = (1.0f + density[s]) * porosity[s] - 1.0f;
+    if (id[s] != no_particle) density[s] = (1.0f + true_density[s]) * porosity[s] - 1.0f;
   }
 };
 
@@ -251,9 +254,13 @@ void FluidSystem<Exec>::reset_coupling() {
 }
 
 template <class Exec>
-void FluidSystem<Exec>::thin_by_porosity() {
-  exec::parallel_for(exec_, "sph::thin", slots(),
-                     Thin{id_.data(), porosity_.data(), density_.data(), mass_share_.data()});
+void FluidSystem<Exec>::fill_pores(bool first) {
+  if (first) {
+    scratch_float_.resize_discard(density_.size());
+    exec::parallel_for(exec_, "sph::true_density", slots(), CopyFloats{density_.data(), scratch_float_.data()});
+  }
+  exec::parallel_for(exec_, "sph::fill_pores", slots(),
+                     FillPores{id_.data(), porosity_.data(), scratch_float_.data(), density_.data()});
   pack();
 }
 

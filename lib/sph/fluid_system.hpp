@@ -61,6 +61,7 @@ class FluidSystem {
   const ClusterSet<Exec>& set() const { return set_; }
   const ClusterSet<Exec>& wall_set() const { return wall_set_; }
   const float* records() const { return record_.data(); }
+  float* mixture_records() { return record_.data(); }            ///< for the mixture pressure of coupled runs
   const float* wall_records() const { return wall_record_.data(); }
   const FixedPosition* positions() const { return position_.data(); }
   float* porosity() { return porosity_.data(); }                 ///< per slot; coupled runs only
@@ -75,8 +76,10 @@ class FluidSystem {
   /// No grains in reach: porosity 1, no reaction.
   void reset_coupling();
   bool coupled() const { return coupled_; }
-  /// At the start, once porosity is known: the water between grains has the share eps of a particle's mass.
-  void thin_by_porosity();
+  /// At the start, once porosity is known: superficial densities of water that fills pores at its true density. The
+  /// table holds as many particles there as the pores have room for. `first`: densities are still the true ones, and are
+  /// kept; again, with a better porosity, before anything is sorted.
+  void fill_pores(bool first);
 
   // Neighbours.
   /// Sorts both sets and builds the lists. The skin suits particles that move `move_per_step` metres a step at most.

@@ -96,5 +96,47 @@ TEST(Coupling, a_grain_above_the_water_falls_freely) {
   EXPECT_NEAR(simulation->grains().velocity[0].z, -9.81f * 0.03f, 0.01f * 9.81f * 0.03f);
 }
 
+double energy(const Diagnostics& d) {
+  return d.fluid_kinetic + d.fluid_potential + d.fluid_elastic + d.grain_kinetic + d.grain_potential + d.grain_elastic;
+}
+
+// A block of discs with a third of pores strikes water at 2 m/s, in the plane.
+SimulationInput block_into_water() {
+  const double dp = 0.01;
+  SimulationInput input = test::tank_input({0.4, 0.0, 0.4}, 0.1, dp, 2);
+  input.fluid_parameters.h = 1.5 * dp;
+  input.fluid_parameters.artificial_viscosity = 0.1;
+  input.fluid_parameters.sound_speed = 40.0;
+  test::fill_block(input.fluid, {0, 0, 0}, {0.4, 0, 0.1}, dp, true);
+  for (int x = 0; x < 18; ++x)
+    for (int z = 0; z < 9; ++z) {
+      input.grains.position.push_back({0.15 + 0.0055 * (x + 0.5), 0.0, 0.105 + 0.0055 * (z + 0.5)});
+      input.grains.velocity.push_back({0.0f, 0.0f, -2.0f});
+      input.grains.diameter.push_back(0.005f);
+      input.grains.density.push_back(2650.0f);
+    }
+  input.contact.youngs_modulus = 1e7;
+  return input;
+}
+
+// What the squeezed water gains, the grains pay. Measured 0.11 % of the kinetic energy, of the time integration; with a
+// buoyancy interpolated from the water's acceleration, or porosity and forces that do not belong together, 6 to 30 %, and
+// water at two and three times the block's speed.
+TEST(Coupling, a_dense_block_into_water_makes_no_energy_and_no_spray) {
+  auto simulation = make_simulation(block_into_water(), "cpu");
+  const double kinetic = simulation->diagnostics().grain_kinetic;
+  double lowest = energy(simulation->diagnostics()), rise = 0.0, speed = 0.0;
+  while (simulation->time() < 0.15) {
+    simulation->step(0.15);
+    const Diagnostics now = simulation->diagnostics();
+    rise = std::max(rise, energy(now) - lowest);
+    lowest = std::min(lowest, energy(now));
+    speed = std::max(speed, now.largest_speed);
+  }
+  EXPECT_LT(rise, 2e-3 * kinetic);
+  EXPECT_LT(speed, 4.0);
+  EXPECT_GT(speed, 1.0);
+}
+
 }  // namespace
 }  // namespace gdesp

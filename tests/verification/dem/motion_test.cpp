@@ -78,6 +78,37 @@ TEST(Incline, RollingResistanceSlowsOrHolds) {
   EXPECT_LT(std::abs(stays.table().position[0].x - first), 1e-6);
 }
 
+// Thresholds within 2 %: rolling starts at tan(slope) = mu_r, sliding of a sphere that cannot roll at tan(slope) = mu. A
+// model with mu_r on the radius of the pair R*/2, or with mu on the force with damping, would miss both by more.
+TEST(Incline, ThresholdsOfRollingAndSliding) {
+  const auto speed_after = [](double friction, double rolling, double tangent) {
+    Grains grains = on_floor(contact(friction, rolling), std::atan(tangent) * 180.0 / 3.14159265358979324, {}, {});
+    run(grains, 1.0);
+    return std::abs(static_cast<double>(grains.table().velocity[0].x));
+  };
+  EXPECT_LT(speed_after(0.6, 0.1, 0.098), 1e-4);
+  EXPECT_NEAR(speed_after(0.6, 0.1, 0.102), 5.0 / 7.0 * gravity * 0.002 * std::cos(std::atan(0.102)), 2e-3);
+  EXPECT_LT(speed_after(0.3, 2.0, 0.294), 1e-4);
+  EXPECT_NEAR(speed_after(0.3, 2.0, 0.306), gravity * 0.006 * std::cos(std::atan(0.306)), 6e-3);
+}
+
+// A sphere hangs below a plane as long as its weight is less than the pull-off force 2 pi w R. @eq dem.cohesion.dmt
+TEST(Cohesion, HoldsAHangingSphereUpToItsPullOffForce) {
+  exec::set_threads(1);
+  const double weight = 2500.0 * 4.0 / 3.0 * 3.14159265358979324 * radius * radius * radius * gravity;
+  const auto height_after = [&](double share) {
+    ContactParameters p = contact(0.0);
+    p.cohesion = share * weight / (2.0 * 3.14159265358979324 * radius);
+    GrainTable table;
+    add_grain(table, {0.5, 0.5, radius - 1e-6}, 2 * radius, 2500);
+    Grains grains({}, space({-1, -1, -1}, {2, 2, 2}, 0.02), table, p, floor_mesh(0, 1, 0, 1, 0, 0.25), {0, 0, gravity});
+    run(grains, 0.2);
+    return grains.table().position[0].z;
+  };
+  EXPECT_LT(height_after(1.05), radius);
+  EXPECT_GT(height_after(0.95), 2.0 * radius);
+}
+
 // A sliding sphere ends rolling at 5/7 of its speed, at t = 2 u0/(7 mu g).
 TEST(Plane, SlidingTurnsToRollingAtFiveSevenths) {
   Grains grains = on_floor(contact(0.3), 0.0, {1.0, 0, 0}, {});
