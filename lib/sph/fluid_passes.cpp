@@ -69,6 +69,32 @@ struct FluidPass {
   }
 };
 
+// sum V0 W over water and walls: 1 on the full lattice.
+struct LatticeShare {
+  float inverse_support, scale;
+  ClusterListView fluid_list, wall_list;
+  const float* fluid;
+  const float* walls;
+  float* share;
+  template <class Lanes>
+  GDESP_HD void operator()(Index c, const Lanes& lanes) const {
+    using Real = typename Lanes::Real;
+    const float* ri = fluid + record_offset(c);
+    const Real x = lanes.load_i(ri + row_x), y = lanes.load_i(ri + row_y), z = lanes.load_i(ri + row_z);
+    Real sum(0.0f);
+    const auto add = [&](const float* rj, const Vec3f& shift) {
+      using real::max;
+      using real::sqrt;
+      const Real dx = x + Real(shift.x) - lanes.load_j(rj + row_x), dy = y + Real(shift.y) - lanes.load_j(rj + row_y),
+                 dz = z + Real(shift.z) - lanes.load_j(rj + row_z);
+      sum += wendland_shape(max(Real(0.0f), Real(1.0f) - sqrt(dx * dx + dy * dy + dz * dz) * Real(inverse_support)));
+    };
+    for_each_cluster(fluid_list, c, [&](Index j, const Vec3f& shift) { add(fluid + record_offset(j), shift); });
+    for_each_cluster(wall_list, c, [&](Index j, const Vec3f& shift) { add(walls + record_offset(j), shift); });
+    lanes.store_sum_i(share + 4 * static_cast<std::int64_t>(c), sum * Real(scale));
+  }
+};
+
 struct ExtrapolateWalls {
   FluidPairLaw law;
   ClusterListView list;
@@ -233,6 +259,15 @@ void FluidSystem<Exec>::extrapolate_walls() {
 }
 
 template <class Exec>
+void FluidSystem<Exec>::lattice_share_pass(float* share) {
+  const FluidParameters& p = parameters_;
+  const double scale = std::pow(p.dp, p.dimensions) * wendland_normalisation(p.h, p.dimensions);
+  exec::pair_pass(exec_, "sph::lattice_share", set_.clusters(),
+                  LatticeShare{static_cast<float>(0.5 / p.h), static_cast<float>(scale), fluid_fluid_.view(),
+                               fluid_wall_.view(), record_.data(), wall_record_.data(), share});
+}
+
+template <class Exec>
 void FluidSystem<Exec>::find_walls() {
   if (!guarded_) return;
   exec::pair_pass(exec_, "sph::wall_guard", set_.clusters(),
@@ -255,6 +290,7 @@ template void FluidSystem<Backend>::continuity_pass();
 template void FluidSystem<Backend>::combined_pass();
 template void FluidSystem<Backend>::extrapolate_walls();
 template void FluidSystem<Backend>::find_walls();
+template void FluidSystem<Backend>::lattice_share_pass(float*);
 template void FluidSystem<Backend>::wall_continuity_pass();
 
 }  // namespace gdesp::sph

@@ -38,18 +38,28 @@ struct GatherWrapped {
   }
 };
 
-struct CopyFloats {
-  const float* from;
-  float* to;
-  GDESP_HD void operator()(Index s) const { to[s] = from[s]; }
+struct KeepFilling {
+  const float* density;
+  const float* share;
+  float* filling;
+  GDESP_HD void operator()(Index s) const {
+    filling[2 * static_cast<std::int64_t>(s)] = density[s];
+    filling[2 * static_cast<std::int64_t>(s) + 1] = share[s];
+  }
 };
+// Water at its true density in pores. Where the table has particles as if there were no grains, they get the mass of what
+// the pores hold; where there are already fewer of them, all of theirs.
 struct FillPores {
   const std::uint32_t* id;
   const float* porosity;
-  const float* true_density;
+  const float* filling;
   float* density;
+  float* mass_share;
   GDESP_HD void operator()(Index s) const {
-    if (id[s] != no_particle) density[s] = (1.0f + true_density[s]) * porosity[s] - 1.0f;
+    if (id[s] == no_particle) return;
+    const float room = porosity[s] / filling[2 * static_cast<std::int64_t>(s) + 1];
+    density[s] = (1.0f + filling[2 * static_cast<std::int64_t>(s)]) * porosity[s] - 1.0f;
+    mass_share[s] = room < 0.8f ? room : 1.0f;
   }
 };
 
@@ -115,7 +125,7 @@ FluidSystem<Exec>::FluidSystem(const Exec& exec, const Domain& domain, const Flu
       record_(exec), rate_(exec), wall_position_(exec), wall_start_(exec), wall_velocity_(exec), wall_body_(exec),
       wall_density_(exec), wall_friction_(exec), wall_id_(exec), wall_record_(exec), wall_rate_(exec),
       wall_normal_(exec), wall_depth_(exec), wall_surface_(exec), near_wall_(exec), wall_bodies_(exec), scratch_position_(exec), scratch_vector_(exec), scratch_float_(exec), scratch_uint_(exec),
-      scratch_int_(exec) {
+      scratch_int_(exec), filling_(exec) {
   start_fluid(fluid);
   start_walls(walls);
   sort_walls();
@@ -256,11 +266,13 @@ void FluidSystem<Exec>::reset_coupling() {
 template <class Exec>
 void FluidSystem<Exec>::fill_pores(bool first) {
   if (first) {
-    scratch_float_.resize_discard(density_.size());
-    exec::parallel_for(exec_, "sph::true_density", slots(), CopyFloats{density_.data(), scratch_float_.data()});
+    scratch_float_.resize_discard(static_cast<std::size_t>(slots()));
+    lattice_share_pass(scratch_float_.data());
+    filling_.resize_discard(2 * static_cast<std::size_t>(slots()));
+    exec::parallel_for(exec_, "sph::keep_filling", slots(), KeepFilling{density_.data(), scratch_float_.data(), filling_.data()});
   }
   exec::parallel_for(exec_, "sph::fill_pores", slots(),
-                     FillPores{id_.data(), porosity_.data(), scratch_float_.data(), density_.data()});
+                     FillPores{id_.data(), porosity_.data(), filling_.data(), density_.data(), mass_share_.data()});
   pack();
 }
 

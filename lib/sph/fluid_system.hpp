@@ -76,9 +76,9 @@ class FluidSystem {
   /// No grains in reach: porosity 1, no reaction.
   void reset_coupling();
   bool coupled() const { return coupled_; }
-  /// At the start, once porosity is known: superficial densities of water that fills pores at its true density. The
-  /// table holds as many particles there as the pores have room for. `first`: densities are still the true ones, and are
-  /// kept; again, with a better porosity, before anything is sorted.
+  /// At the start, once porosity is known: superficial densities of water that fills pores at its true density, and
+  /// masses where the table has more particles than the pores have room for. `first`: densities are still the true
+  /// ones, and are kept; again, with a better porosity, before anything is sorted.
   void fill_pores(bool first);
 
   // Neighbours.
@@ -128,6 +128,7 @@ class FluidSystem {
   void sort_fluid();
   void sort_walls();
   void pack_walls();
+  void lattice_share_pass(float* share);                 ///< V0 times particles a volume, by slot
   template <bool M, bool C> void run_fluid_pass(const char* name);
   template <bool M, bool C, Viscosity K> void run_fluid_pass_kind(const char* name);
   FluidPairLaw pair_law() const;
@@ -175,6 +176,7 @@ class FluidSystem {
   Array<float, Exec> scratch_float_;
   Array<std::uint32_t, Exec> scratch_uint_;
   Array<std::int32_t, Exec> scratch_int_;
+  Array<float, Exec> filling_;                  ///< while pores are filled: true D, lattice share, by slot
   bool walls_move_ = false;
 };
 
