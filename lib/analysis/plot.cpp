@@ -159,6 +159,14 @@ void write_range(std::ostream& out, const char* axis, const Range& r, bool log, 
   }
 }
 
+// Lines under a title; each is set small on its own.
+std::string small_print(const std::string& note) {
+  std::string text, line;
+  std::istringstream lines(note);
+  while (std::getline(lines, line)) text += "\n{/*0.82 " + line + "}";
+  return text;
+}
+
 std::size_t legend_rows(const std::vector<Series>& series, std::size_t columns) {
   std::size_t named = 0;
   for (const Series& s : series) named += !s.label.empty();
@@ -190,8 +198,7 @@ bool has_numbers(const Series& s) {
 }
 
 void write_panel(std::ostream& out, const Panel& p, int index, const Page& page) {
-  const std::string small_print = p.note.empty() ? "" : "\n{/*0.82 " + p.note + "}";
-  out << "set title " << quoted((p.title.empty() ? "" : "{/*1.08 " + p.title + "}") + small_print) << " offset 0,-0.3\nset xlabel " << quoted(p.x_label)
+  out << "set title " << quoted((p.title.empty() ? "" : "{/*1.08 " + p.title + "}") + small_print(p.note)) << " offset 0,-0.3\nset xlabel " << quoted(p.x_label)
       << "\nset ylabel " << quoted(p.y_label) << "\n"
       << (p.log_x ? "set logscale x\n" : "unset logscale x\n") << (p.log_y ? "set logscale y\n" : "unset logscale y\n")
       << (p.equal_axes ? "set size ratio -1\n" : "");
@@ -236,7 +243,7 @@ void write_map(std::ostream& out, const ColourMap& m, int index) {
     }
     out << '\n';
   }
-  out << "EOD\nset title " << quoted("{/*1.08 " + m.title + "}" + (m.note.empty() ? "" : "\n{/*0.82 " + m.note + "}")) << "\nset xlabel " << quoted(m.x_label) << "\nset ylabel "
+  out << "EOD\nset title " << quoted("{/*1.08 " + m.title + "}" + small_print(m.note)) << "\nset xlabel " << quoted(m.x_label) << "\nset ylabel "
       << quoted(m.y_label) << "\nset cblabel " << quoted(m.value_label) << " offset 1.6,0\nset format cb '%g'"
       << "\nset rmargin 12\nunset key\nunset bmargin\nunset logscale\nset size ratio -1\nset format x '%.7g'\nset format y '%.7g'\nset style fill solid 1 noborder\nset xtics " << tick_step(m.nx * m.dx) << "\n";
   out << "set xrange [" << m.x0 - 0.5 * m.dx << ":" << m.x0 + (m.nx - 0.5) * m.dx << "]\nset yrange ["

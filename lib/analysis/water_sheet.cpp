@@ -61,8 +61,8 @@ bool is_shore(const RunInfo& info, float level, float ground) {
   return ground <= *info.still_water_level && level >= *info.still_water_level - 0.5 * info.dp && depth <= 1.2 * info.dp;
 }
 
-// One ring of cells outwards: dry cells beside wet ones take the mean of those.
-void extend(const Raster& shape, std::vector<float>& value) {
+// One ring of cells outwards: dry cells beside cells of `from` take the mean of those.
+void extend(const Raster& shape, const std::vector<std::uint8_t>& from, std::vector<float>& value) {
   const std::vector<float> before = value;
   for (int iy = 0; iy < shape.ny; ++iy) {
     for (int ix = 0; ix < shape.nx; ++ix) {
@@ -72,8 +72,8 @@ void extend(const Raster& shape, std::vector<float>& value) {
       int count = 0;
       for (int jy = std::max(iy - 1, 0); jy <= std::min(iy + 1, shape.ny - 1); ++jy) {
         for (int jx = std::max(ix - 1, 0); jx <= std::min(ix + 1, shape.nx - 1); ++jx) {
-          const float v = before[static_cast<std::size_t>(jy) * shape.nx + jx];
-          if (std::isfinite(v)) sum += v, ++count;
+          const std::size_t j = static_cast<std::size_t>(jy) * shape.nx + jx;
+          if (from[j] && std::isfinite(before[j])) sum += before[j], ++count;
         }
       }
       if (count > 0) value[k] = static_cast<float>(sum / count);
@@ -93,8 +93,10 @@ WaterSheet make_water_sheet(FrameView& view, double cell) {
   std::vector<float> speed = speeds_at(view, level);
   const std::vector<float> measured = level.value, ground = ground_at(view.info(), level);
   for (double done = 0.0; done < margin * view.info().dp; done += cell) {
-    extend(level, level.value);
-    extend(level, speed);
+    std::vector<std::uint8_t> from(ground.size());  // what lies under the ground leads no further: a dam has another side
+    for (std::size_t k = 0; k < from.size(); ++k) from[k] = std::isfinite(measured[k]) || !(ground[k] > level.value[k]);
+    extend(level, from, speed);
+    extend(level, from, level.value);
   }
   const bool moving = view.frame().fluid.velocity.size() == view.frame().fluid.position.size();
   std::vector<std::int32_t> number(level.value.size(), -1);
