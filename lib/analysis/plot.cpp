@@ -126,9 +126,9 @@ Range range_of(const Panel& p, bool vertical) {
   return r;
 }
 
-// Over less than three decades powers of ten alone are too few: 1, 2 and 5 of each.
+// Over less than two decades powers of ten alone are too few: 1, 2 and 5 of each.
 void write_log_ticks(std::ostream& out, const char* axis, const Range& r) {
-  if (!(r.low > 0.0) || r.high > 1e3 * r.low) {
+  if (!(r.low > 0.0) || r.high > 100.0 * r.low) {
     out << "set " << axis << "tics auto\n";
     return;
   }
@@ -203,8 +203,7 @@ void write_panel(std::ostream& out, const Panel& p, int index, const Page& page)
       << (p.log_x ? "set logscale x\n" : "unset logscale x\n") << (p.log_y ? "set logscale y\n" : "unset logscale y\n")
       << (p.equal_axes ? "set size ratio -1\n" : "");
   const Range x = range_of(p, false), y = range_of(p, true);
-  // Powers of ten alone would leave an axis of two decades almost without numbers.
-  const auto format = [](bool log, const Range& r) { return log && r.high > 3e3 * r.low ? "10^{%T}" : "%g"; };
+  const auto format = [](bool log, const Range& r) { return log && r.high > 100.0 * r.low ? "10^{%T}" : "%g"; };
   out << "set format x '" << format(p.log_x, x) << "'\nset format y '" << format(p.log_y, y) << "'\n";
   if (std::isfinite(p.x_low) && std::isfinite(p.x_high)) out << "set xrange [" << p.x_low << ":" << p.x_high << "]\n";
   else write_range(out, "x", x, p.log_x, false);
