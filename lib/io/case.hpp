@@ -33,7 +33,7 @@ struct Case {
 void write_case(const std::string& path, const Case& c, bool force, const std::vector<std::string>& extra_files = {});
 
 /// Reads a folder written by write_case; `overrides` change scene keys that need no new particles
-/// (time.*, numerics.*, coupling.*, contact.*, fluid.kinematic_viscosity): others are errors that say so.
+/// (time.*, numerics.*, coupling.*, contact.*, economy.*, fluid.kinematic_viscosity): others are errors that say so.
 /// Checks sizes, finiteness and body numbers; throws Error(input).
 Case read_case(const std::string& path, const std::vector<Override>& overrides = {});
 

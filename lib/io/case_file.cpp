@@ -199,10 +199,10 @@ void read_parts(const fs::path& folder, const CaseCounts& stated, Case& c) {
 void check_overrides(const std::vector<Override>& overrides) {
   for (const Override& o : overrides) {
     bool free = o.key == "fluid.kinematic_viscosity";
-    for (const char* table : {"time.", "numerics.", "coupling.", "contact."}) free = free || o.key.starts_with(table);
+    for (const char* table : {"time.", "numerics.", "coupling.", "contact.", "economy."}) free = free || o.key.starts_with(table);
     if (free) continue;
     throw Error(ErrorKind::input, "--set " + o.key + ": the case's particles were made with it; give it to " +
-                                      "mesh2particles (here: time.*, numerics.*, coupling.*, contact.*, " +
+                                      "mesh2particles (here: time.*, numerics.*, coupling.*, contact.*, economy.*, " +
                                       "fluid.kinematic_viscosity)");
   }
 }

@@ -31,6 +31,7 @@ struct BuildList {
   std::uint32_t* begin;
   std::uint32_t* count;
   std::uint32_t* entries;
+  const Index* chosen;  // null: all
 
   // accept(entry) for each j cluster with a pair inside the cutoff.
   template <class Lanes, class Accept>
@@ -64,7 +65,10 @@ struct BuildList {
   }
 
   template <class Lanes>
-  GDESP_HD void operator()(Index c, const Lanes& lanes) const {
+  GDESP_HD void operator()(Index k, const Lanes& lanes) const { build(chosen ? chosen[k] : k, lanes); }
+
+  template <class Lanes>
+  GDESP_HD void build(Index c, const Lanes& lanes) const {
 #if defined(__CUDA_ARCH__)
     // Two walks: count, take the space, fill.
     std::uint32_t n = 0;
@@ -109,7 +113,7 @@ struct BuildList {
 
 template <class Exec>
 void ClusterList<Exec>::build(const CellGridView& i, const float* record_i, const CellGridView& j,
-                              const float* record_j, float cutoff) {
+                              const float* record_j, float cutoff, const ChosenIndex& chosen) {
   tile_size_ = static_cast<Vec3f>(i.domain.tile_size);
   const auto n = static_cast<std::size_t>(i.clusters);
   begin_.resize_discard(n);
@@ -127,9 +131,10 @@ void ClusterList<Exec>::build(const CellGridView& i, const float* record_i, cons
   if (entries_.empty()) entries_.resize_discard(40 * n + 1024);
   for (;;) {
     used_.fill_bytes(0);
-    exec::pair_pass(exec_, "list::build", i.clusters,
+    if (chosen.list) count_.fill_bytes(0);
+    exec::pair_pass(exec_, "list::build", chosen.list ? chosen.count : i.clusters,
                     BuildList{i, j, record_i, record_j, cutoff, static_cast<std::uint32_t>(entries_.size()),
-                              used_.data(), begin_.data(), count_.data(), entries_.data()});
+                              used_.data(), begin_.data(), count_.data(), entries_.data(), chosen.list});
     used_entries_ = used_.read(0);
     if (used_entries_ <= entries_.size()) return;
     entries_.resize_discard(used_entries_ + used_entries_ / 16);

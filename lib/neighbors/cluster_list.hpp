@@ -49,6 +49,12 @@ GDESP_HD inline void for_each_cluster(const ClusterListView& list, Index c, cons
   }
 }
 
+/// The clusters that get lists (others get empty ones); null: all.
+struct ChosenIndex {
+  const Index* list = nullptr;
+  Index count = 0;
+};
+
 template <class Exec>
 class ClusterList {
  public:
@@ -57,7 +63,8 @@ class ClusterList {
 
   /// Lists, for each cluster of `i` (records `record_i`), the clusters of `j` with a pair closer than `cutoff` (m).
   /// i and j may be the same set; a cluster is then in its own list.
-  void build(const CellGridView& i, const float* record_i, const CellGridView& j, const float* record_j, float cutoff);
+  void build(const CellGridView& i, const float* record_i, const CellGridView& j, const float* record_j, float cutoff,
+             const ChosenIndex& chosen = {});
 
   ClusterListView view() const;
   std::size_t entries() const { return used_entries_; }

@@ -147,6 +147,14 @@ struct Numerics {
   double skin = 0.0;                      ///< m; 0: chosen
 };
 
+/// What a run may leave out because it does not change the answer (docs/economy.md).
+struct Economy {
+  bool sleep = false;                     ///< still water sleeps until it is disturbed; `paper`: false
+  double wake_speed = 0.01;               ///< sqrt(g dp): mean velocity in a block of 8 dp that wakes it
+  bool viscosity = true;                  ///< physical viscosity off where its layer is thinner than 0.2 dp; `paper`: false
+  bool near_walls = true;                 ///< wall particles away from water are not touched; `paper`: false
+};
+
 struct TimeControl {
   double end = 1.0;                       ///< s
   double output_interval = 0.0;           ///< s; 0: end / 50
@@ -175,6 +183,7 @@ struct Scene {
   Contact contact;
   Coupling coupling;
   Numerics numerics;
+  Economy economy;
   TimeControl time;
   std::vector<Gauge> gauges;
   std::vector<Section> sections;

@@ -176,6 +176,15 @@ void describe_numerics(V& v, Scene& scene) {
   v.leave();
 }
 
+void describe_economy(V& v, Economy& e) {
+  v.enter("economy");
+  v.boolean({"sleep", "", "still water sleeps until it is disturbed; preset paper: false"}, e.sleep);
+  v.number({"wake_speed", "sqrt(g dp)", "mean velocity in a block of 8 dp that wakes it"}, e.wake_speed, positive);
+  v.boolean({"viscosity", "", "viscosity morris is left out where its layer, sqrt(nu t), stays below 0.2 dp; preset paper: false"}, e.viscosity);
+  v.boolean({"near_walls", "", "wall particles away from water are not touched; preset paper: false"}, e.near_walls);
+  v.leave();
+}
+
 void describe_domain(V& v, Scene& scene) {
   std::optional<Vec3d> lower, upper;
   if (scene.domain) {
@@ -235,6 +244,7 @@ void describe_scene(SceneVisitor& v, Scene& scene) {
   describe_contact(v, scene.contact);
   describe_numerics(v, scene);
   describe_coupling(v, scene.coupling);
+  describe_economy(v, scene.economy);
   v.enter("time");
   v.number({"end", "s", "simulated time"}, scene.time.end, positive);
   v.number({"output_interval", "s", "simulated time between frames; 0: end / 50"}, scene.time.output_interval,
@@ -261,6 +271,9 @@ bool apply_preset(const std::string& preset, Scene& scene) {
   n.multirate = false;
   scene.coupling.drag = "ergun-wen-yu";
   scene.coupling.added_mass = 0.0;
+  scene.economy.sleep = false;
+  scene.economy.viscosity = false;
+  scene.economy.near_walls = false;
   return true;
 }
 

@@ -207,6 +207,9 @@ void forget_old_preset(toml::table& root) {
   drop("numerics", "multirate", old.numerics.multirate);
   drop("coupling", "drag", old.coupling.drag);
   drop("coupling", "added_mass", old.coupling.added_mass);
+  drop("economy", "sleep", old.economy.sleep);
+  drop("economy", "viscosity", old.economy.viscosity);
+  drop("economy", "near_walls", old.economy.near_walls);
 }
 
 }  // namespace

@@ -37,6 +37,12 @@ void CoupledSimulation<Exec>::start_grains(const SimulationInput& input) {
 }
 
 template <class Exec>
+sph::Movers CoupledSimulation<Exec>::movers() const {
+  if (!grains_ || !coupling_) return {};
+  return {grains_->positions(), grains_->velocities(), grains_->ids(), grains_->slots(), true};
+}
+
+template <class Exec>
 void CoupledSimulation<Exec>::refresh_coupling(double move, bool fluid_sorted) {
   // Dry grains are sorted as they please; grains in the water keep their slots between two rebuilds here.
   const bool grains_sorted = !grains_in_water() && coupled_rebuild_ != grains_->rebuilds();
@@ -103,6 +109,7 @@ void CoupledSimulation<Exec>::advance_grains(double dt) {
 
 using Backend = exec::CompiledBackend;
 template void CoupledSimulation<Backend>::start_grains(const SimulationInput&);
+template sph::Movers CoupledSimulation<Backend>::movers() const;
 template void CoupledSimulation<Backend>::refresh_coupling(double, bool);
 template void CoupledSimulation<Backend>::porosity_now(double);
 template void CoupledSimulation<Backend>::gather_forces(double);

@@ -29,6 +29,10 @@ CoupledSimulation<Exec>::CoupledSimulation(const Exec& exec, const SimulationInp
   place_bodies(0.0);
   if (!input.grains.position.empty()) start_grains(input);
   fluid_.extrapolate_walls();
+  if (fluid_.may_fall_asleep(0.0)) {
+    fluid_.momentum_pass();
+    fluid_.start_sleeping(0.0, movers());
+  }
   extremes_ = fluid_.extremes();
 }
 
@@ -69,9 +73,10 @@ void CoupledSimulation<Exec>::make_room_for(double dt) {
                  dt * (std::sqrt(static_cast<double>(extremes_.acceleration2)));
   for (const auto& body : body_states_) speed = std::max(speed, static_cast<double>(norm(body.velocity)));
   const double move = 1.2 * speed * dt;
+  if (fluid_.may_fall_asleep(time_)) fluid_.start_sleeping(time_, movers());
   const bool stale = fluid_.lists_are_stale(move);
   if (stale) {
-    fluid_.rebuild(move);
+    fluid_.rebuild(move, time_, movers());
     ++rebuilds_;
   }
   fluid_.note_move(move);
@@ -195,6 +200,7 @@ Diagnostics CoupledSimulation<Exec>::diagnostics() {
     d.deepest_in_wall = static_cast<double>(deepest.depth) / input_.fluid_parameters.dp;
     d.deepest_in_wall_id = deepest.id;
   }
+  if (fluid_.set().clusters() > 0) d.awake_share = static_cast<double>(fluid_.awake_clusters()) / fluid_.set().clusters();
   if (grains_) {
     const dem::GrainSums grains = grains_->sums();
     d.grains = grains.particles;

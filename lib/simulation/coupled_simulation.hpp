@@ -41,6 +41,7 @@ class CoupledSimulation final : public Simulation {
   // Grains and coupling (coupled_grains.cpp).
   void start_grains(const SimulationInput& input);
   bool grains_in_water() const { return coupling_ && coupling_->in_contact(); }
+  sph::Movers movers() const;
   void refresh_coupling(double fluid_move, bool fluid_sorted);
   void porosity_now(double ahead);
   void gather_forces(double dt);

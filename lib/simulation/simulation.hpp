@@ -32,6 +32,7 @@ struct Diagnostics {
   std::int64_t fluid_particles = 0, wall_particles = 0, grains = 0;
   std::int64_t lost_fluid = 0, lost_grains = 0;
   std::int64_t rebuilds = 0, grain_substeps = 0;
+  double awake_share = 1.0;           ///< of the water (clusters that the passes run over)
 };
 
 /// State of a rigid body for output.

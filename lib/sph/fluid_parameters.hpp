@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/vec3.hpp"
+#include "sph/activity_parameters.hpp"
 #include "sph/pressure_and_viscosity_kinds.hpp"
 
 namespace gdesp::sph {
@@ -23,6 +24,7 @@ struct FluidParameters {
   int dimensions = 3;
   double skin = 0.0;                 ///< m, added to the support of the lists; 0: chosen from the motion
   double level = 0.0;                ///< m, still-water level for the hydrostatic start
+  ActivityParameters activity;       ///< when still water sleeps
 };
 
 }  // namespace gdesp::sph

@@ -226,12 +226,12 @@ template <class Exec>
 template <bool M, bool C, Viscosity K>
 void FluidSystem<Exec>::run_fluid_pass_kind(const char* name) {
   const FluidParameters& p = parameters_;
-  exec::pair_pass(exec_, name, set_.clusters(),
+  exec::pair_pass(exec_, name, awake_clusters(), chosen_clusters(awake_list(),
                   FluidPass<M, C, K>{pair_law(), static_cast<float>(p.sound_speed * p.sound_speed),
                                      static_cast<float>(2.0 * p.density_diffusion * p.h * p.sound_speed),
                                      fluid_fluid_.view(), fluid_wall_.view(), record_.data(), wall_record_.data(),
                                      wall_friction_.data(), mass_share_.data(),
-                                     rate_.data()});
+                                     rate_.data()}));
 }
 
 template <class Exec>
@@ -252,10 +252,11 @@ void FluidSystem<Exec>::combined_pass() { run_fluid_pass<true, true>("sph::momen
 template <class Exec>
 void FluidSystem<Exec>::extrapolate_walls() {
   if (wall_set_.clusters() == 0 || !parameters_.extrapolated_walls) return;
-  exec::pair_pass(exec_, "sph::walls", wall_set_.clusters(),
-                  ExtrapolateWalls{pair_law(), wall_fluid_.view(), record_.data(), wall_record_.data()});
-  exec::parallel_for(exec_, "sph::walls_finish", wall_set_.slots(),
-                     FinishWalls{wall_fluid_.view().count, wall_record_.data()});
+  exec::pair_pass(exec_, "sph::walls", near_walls_.count(),
+                  chosen_clusters(near_walls_.list(), ExtrapolateWalls{pair_law(), wall_fluid_.view(), record_.data(),
+                                                                       wall_record_.data()}));
+  exec::parallel_for(exec_, "sph::walls_finish", exec::cluster_size * near_walls_.count(),
+                     chosen_slots(near_walls_.list(), FinishWalls{wall_fluid_.view().count, wall_record_.data()}));
 }
 
 template <class Exec>
@@ -270,17 +271,18 @@ void FluidSystem<Exec>::lattice_share_pass(float* share) {
 template <class Exec>
 void FluidSystem<Exec>::find_walls() {
   if (!guarded_) return;
-  exec::pair_pass(exec_, "sph::wall_guard", set_.clusters(),
-                  FindWalls{static_cast<float>(0.5 / parameters_.dp), fluid_wall_.view(), record_.data(),
-                            wall_record_.data(), wall_surface_.data(), near_wall_.data()});
+  exec::pair_pass(exec_, "sph::wall_guard", awake_clusters(),
+                  chosen_clusters(awake_list(), FindWalls{static_cast<float>(0.5 / parameters_.dp), fluid_wall_.view(),
+                                                          record_.data(), wall_record_.data(), wall_surface_.data(),
+                                                          near_wall_.data()}));
 }
 
 template <class Exec>
 void FluidSystem<Exec>::wall_continuity_pass() {
   if (wall_set_.clusters() == 0 || parameters_.extrapolated_walls) return;
-  exec::pair_pass(exec_, "sph::walls", wall_set_.clusters(),
-                  WallContinuity{pair_law(), wall_fluid_.view(), record_.data(), wall_record_.data(),
-                                 wall_rate_.data()});
+  exec::pair_pass(exec_, "sph::walls", near_walls_.count(),
+                  chosen_clusters(near_walls_.list(), WallContinuity{pair_law(), wall_fluid_.view(), record_.data(),
+                                                                     wall_record_.data(), wall_rate_.data()}));
 }
 
 using Backend = exec::CompiledBackend;

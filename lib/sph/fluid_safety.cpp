@@ -47,7 +47,8 @@ struct KeepPressure {
 template <class Exec>
 DeepestInWall FluidSystem<Exec>::deepest_in_wall() {
   if (!guarded_) return {};
-  return exec::reduce(exec_, "sph::deepest_in_wall", slots(), DeepestInWall{}, DepthInWall{near_wall_.data(), id_.data()},
+  return exec::reduce(exec_, "sph::deepest_in_wall", awake_slots(), DeepestInWall{},
+                      chosen_slots(awake_list(), DepthInWall{near_wall_.data(), id_.data()}),
                       Deeper{});
 }
 
@@ -57,11 +58,11 @@ void FluidSystem<Exec>::set_sound_speed(double c) {
   const double ratio = parameters_.sound_speed / c;
   const auto share = static_cast<float>(ratio * ratio);
   exec::parallel_for(exec_, "sph::keep_pressure", slots(),
-                     KeepPressure{id_.data(), coupled_ ? porosity_.data() : nullptr, share, density_.data()});
+                     KeepPressure{id_.data(), porous_ ? porosity_.data() : nullptr, share, density_.data()});
   exec::parallel_for(exec_, "sph::keep_pressure", wall_set_.slots(),
                      KeepPressure{wall_id_.data(), nullptr, share, wall_density_.data()});
   parameters_.sound_speed = c;
-  pack();
+  pack_all();
 }
 
 template DeepestInWall FluidSystem<exec::CompiledBackend>::deepest_in_wall();

@@ -121,6 +121,7 @@ FluidSystem<Exec>::FluidSystem(const Exec& exec, const Domain& domain, const Flu
                                const FluidTable& fluid, const BoundaryTable& walls)
     : exec_(exec), domain_(domain), parameters_(parameters), set_(exec, domain, 2.0 * parameters.dp),
       wall_set_(exec, domain, 2.0 * parameters.dp), fluid_fluid_(exec), fluid_wall_(exec), wall_fluid_(exec),
+      activity_(exec, domain, parameters.activity, parameters.dp, norm(parameters.gravity)), awake_(exec), near_walls_(exec),
       position_(exec), velocity_(exec), density_(exec), id_(exec), mass_share_(exec), porosity_(exec), external_(exec),
       record_(exec), rate_(exec), wall_position_(exec), wall_start_(exec), wall_velocity_(exec), wall_body_(exec),
       wall_density_(exec), wall_friction_(exec), wall_id_(exec), wall_record_(exec), wall_rate_(exec),
@@ -231,7 +232,7 @@ void FluidSystem<Exec>::sort_walls() {
 }
 
 template <class Exec>
-void FluidSystem<Exec>::rebuild(double move_per_step) {
+void FluidSystem<Exec>::rebuild(double move_per_step, double t, const Movers& movers) {
   // A rebuild costs about 1.5 passes of each kind, the skin 0.9 skin/h of every pass: the sum is least at
   // sqrt(3.3 move h) (docs/decisions/0003).
   skin_ = parameters_.skin > 0.0 ? parameters_.skin
@@ -239,13 +240,21 @@ void FluidSystem<Exec>::rebuild(double move_per_step) {
                                               0.6 * parameters_.h);
   skin_ = std::max(skin_, 2.5 * move_per_step);
   sort_fluid();
-  pack();
+  pack_all();
   if (walls_move_) sort_walls();
-  const auto cutoff = static_cast<float>(2.0 * parameters_.h + skin_);
-  fluid_fluid_.build(set_.view(), record_.data(), set_.view(), record_.data(), cutoff);
-  fluid_wall_.build(set_.view(), record_.data(), wall_set_.view(), wall_record_.data(), cutoff);
-  wall_fluid_.build(wall_set_.view(), wall_record_.data(), set_.view(), record_.data(), cutoff);
+  update_activity(t, movers);
+  build_lists();
   moved_ = 0.0;
+  steps_since_rebuild_ = 0;
+}
+
+template <class Exec>
+void FluidSystem<Exec>::build_lists() {
+  const auto cutoff = static_cast<float>(2.0 * parameters_.h + skin_);
+  const ChosenIndex water{awake_list(), awake_clusters()}, walls{near_walls_.list(), near_walls_.count()};
+  fluid_fluid_.build(set_.view(), record_.data(), set_.view(), record_.data(), cutoff, water);
+  fluid_wall_.build(set_.view(), record_.data(), wall_set_.view(), wall_record_.data(), cutoff, water);
+  wall_fluid_.build(wall_set_.view(), wall_record_.data(), set_.view(), record_.data(), cutoff, walls);
 }
 
 template <class Exec>
@@ -259,6 +268,7 @@ void FluidSystem<Exec>::enable_coupling() {
 
 template <class Exec>
 void FluidSystem<Exec>::reset_coupling() {
+  porous_ = false;
   exec::parallel_for(exec_, "sph::porosity", slots(), SetOne{porosity_.data()});
   external_.fill_bytes(0);
 }
@@ -273,7 +283,7 @@ void FluidSystem<Exec>::fill_pores(bool first) {
   }
   exec::parallel_for(exec_, "sph::fill_pores", slots(),
                      FillPores{id_.data(), porosity_.data(), filling_.data(), density_.data(), mass_share_.data()});
-  pack();
+  pack_all();
 }
 
 template <class Exec>

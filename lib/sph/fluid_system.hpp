@@ -7,6 +7,7 @@
 
 #include "neighbors/cluster_list.hpp"
 #include "particles/particle_tables.hpp"
+#include "sph/activity.hpp"
 #include "sph/fluid_parameters.hpp"
 #include "sph/fluid_views.hpp"
 #include "sph/pressure_and_viscosity.hpp"
@@ -64,7 +65,7 @@ class FluidSystem {
   float* mixture_records() { return record_.data(); }            ///< for the mixture pressure of coupled runs
   const float* wall_records() const { return wall_record_.data(); }
   const FixedPosition* positions() const { return position_.data(); }
-  float* porosity() { return porosity_.data(); }                 ///< per slot; coupled runs only
+  float* porosity() { porous_ = true; return porosity_.data(); } ///< per slot, to be written; coupled runs only
   const float* porosity() const { return porosity_.data(); }
   Vec3f* external_acceleration() { return external_.data(); }    ///< per slot, m/s2: the reaction of grains
   const float* mass_share() const { return mass_share_.data(); }
@@ -83,10 +84,22 @@ class FluidSystem {
 
   // Neighbours.
   /// Sorts both sets and builds the lists. The skin suits particles that move `move_per_step` metres a step at most.
-  void rebuild(double move_per_step);
-  /// True when some particle may have moved more than half the skin since the last rebuild.
-  bool lists_are_stale(double next_move) const { return 2.0 * (moved_ + next_move) > skin_; }
-  void note_move(double metres) { moved_ += metres; }
+  /// Where water may sleep, decides who is awake at time t (s); `movers` wake the water around them.
+  void rebuild(double move_per_step, double t = 0.0, const Movers& movers = {});
+  /// True when some particle may have moved more than half the skin since the last rebuild, or sleeping water has not
+  /// been looked at for a while.
+  bool lists_are_stale(double next_move) const;
+  void note_move(double metres) { moved_ += metres, ++steps_since_rebuild_; }
+
+  // Activity (sph/activity.hpp; fluid_activity.cpp).
+  /// Once the water has settled, unless it sleeps already.
+  bool may_fall_asleep(double t) const {
+    return parameters_.activity.sleep && !sleeps_ && particles() > 0 && t >= parameters_.activity.settle_time;
+  }
+  /// Between two steps, once accelerations are there: water that is still and whose forces balance falls asleep.
+  void start_sleeping(double t, const Movers& movers);
+  Index awake_clusters() const { return sleeps_ ? awake_.count() : set_.clusters(); }
+  Index near_wall_clusters() const { return near_walls_.count(); }
 
   // Parts of a step (simulation/time_schemes).
   void half_drift(float dt_position, float dt_density);  ///< r += v dt_position, D += dD dt_density, pack
@@ -116,7 +129,8 @@ class FluidSystem {
   /// The members that a checkpoint keeps (exec/state_archive.hpp).
   template <class Archive>
   void archive(Archive& a) {
-    a(parameters_.sound_speed, coupled_, moved_, skin_, lost_, walls_move_, set_, wall_set_, fluid_fluid_, fluid_wall_, wall_fluid_);
+    a(activity_, awake_, near_walls_, sleeps_, steps_since_rebuild_);
+    a(parameters_.sound_speed, coupled_, porous_, moved_, skin_, lost_, walls_move_, set_, wall_set_, fluid_fluid_, fluid_wall_, wall_fluid_);
     a(position_, velocity_, density_, id_, mass_share_, porosity_, external_, record_, rate_);
     a(wall_position_, wall_start_, wall_velocity_, wall_body_, wall_density_, wall_friction_, wall_id_, wall_record_,
       wall_rate_, wall_bodies_, guarded_, wall_normal_, wall_depth_, wall_surface_, near_wall_);
@@ -129,6 +143,11 @@ class FluidSystem {
   void sort_walls();
   void pack_walls();
   void lattice_share_pass(float* share);                 ///< V0 times particles a volume, by slot
+  void pack_all();
+  void update_activity(double t, const Movers& movers);
+  void build_lists();
+  const Index* awake_list() const { return sleeps_ ? awake_.list() : nullptr; }
+  Index awake_slots() const { return exec::cluster_size * awake_clusters(); }
   template <bool M, bool C> void run_fluid_pass(const char* name);
   template <bool M, bool C, Viscosity K> void run_fluid_pass_kind(const char* name);
   FluidPairLaw pair_law() const;
@@ -139,10 +158,15 @@ class FluidSystem {
   Domain domain_;
   FluidParameters parameters_;
   bool coupled_ = false;
+  bool porous_ = false;                         ///< some porosity may differ from 1
   double moved_ = 0.0, skin_ = 0.0;
   Index lost_ = 0;
   ClusterSet<Exec> set_, wall_set_;
   ClusterList<Exec> fluid_fluid_, fluid_wall_, wall_fluid_;
+  Activity<Exec> activity_;
+  ClusterSelection<Exec> awake_, near_walls_;   ///< clusters of the water; of the walls, near awake water
+  bool sleeps_ = false;                         ///< some water may be asleep: awake_ holds
+  std::int32_t steps_since_rebuild_ = 0;
 
   // Water, by slot.
   Array<FixedPosition, Exec> position_;

@@ -221,53 +221,65 @@ FluidStateView FluidSystem<Exec>::state_view() {
 template <class Exec>
 RecordPacker FluidSystem<Exec>::packer() {
   return {domain_, parameters_.paper_form, set_.view().cluster_tile, id_.data(),
-          coupled_ ? porosity_.data() : nullptr, mass_share_.data(),
+          porous_ ? porosity_.data() : nullptr, mass_share_.data(),
           parameters_.cavitates, record_.data()};
 }
 
 template <class Exec>
 void FluidSystem<Exec>::half_drift(float dt_position, float dt_density) {
-  exec::parallel_for(exec_, "sph::half_drift", slots(), HalfDrift{state_view(), packer(), dt_position, dt_density});
+  exec::parallel_for(exec_, "sph::half_drift", awake_slots(),
+                     chosen_slots(awake_list(), HalfDrift{state_view(), packer(), dt_position, dt_density}));
 }
 
 template <class Exec>
 void FluidSystem<Exec>::pack() {
+  exec::parallel_for(exec_, "sph::pack", awake_slots(),
+                     chosen_slots(awake_list(), HalfDrift{state_view(), packer(), 0.0f, 0.0f}));
+}
+
+template <class Exec>
+void FluidSystem<Exec>::pack_all() {
   exec::parallel_for(exec_, "sph::pack", slots(), HalfDrift{state_view(), packer(), 0.0f, 0.0f});
 }
 
 template <class Exec>
 void FluidSystem<Exec>::kick_drift(float dt, float dt_position) {
-  exec::parallel_for(exec_, "sph::kick_drift", slots(), KickDrift{state_view(), packer(), dt, dt_position, guarded_ ? near_wall_.data() : nullptr,
-                               static_cast<float>(parameters_.sound_speed)});
+  exec::parallel_for(exec_, "sph::kick_drift", awake_slots(),
+                     chosen_slots(awake_list(), KickDrift{state_view(), packer(), dt, dt_position, guarded_ ? near_wall_.data() : nullptr,
+                                                          static_cast<float>(parameters_.sound_speed)}));
 }
 
 template <class Exec>
 void FluidSystem<Exec>::verlet_predict(float dt) {
   FluidStateView state = state_view();
   state.external = nullptr;
-  exec::parallel_for(exec_, "sph::verlet_predict", slots(), VerletPredict{state, packer(), dt});
+  exec::parallel_for(exec_, "sph::verlet_predict", awake_slots(),
+                     chosen_slots(awake_list(), VerletPredict{state, packer(), dt}));
 }
 
 template <class Exec>
 void FluidSystem<Exec>::verlet_correct(float dt) {
   FluidStateView state = state_view();
   state.external = nullptr;
-  exec::parallel_for(exec_, "sph::verlet_correct", slots(),
-                     VerletCorrect{state, coupled_ ? external_.data() : nullptr, id_.data(), dt});
+  exec::parallel_for(exec_, "sph::verlet_correct", awake_slots(),
+                     chosen_slots(awake_list(), VerletCorrect{state, coupled_ ? external_.data() : nullptr, id_.data(), dt}));
 }
 
 template <class Exec>
 void FluidSystem<Exec>::evolve_dynamic_walls(float dt) {
   if (wall_set_.clusters() == 0 || parameters_.extrapolated_walls) return;
-  exec::parallel_for(exec_, "sph::evolve_walls", wall_set_.slots(),
-                     EvolveWalls{wall_fluid_.view().count, wall_rate_.data(), wall_density_.data(),
-                                 wall_record_.data(), parameters_.paper_form, dt});
+  exec::parallel_for(exec_, "sph::evolve_walls", exec::cluster_size * near_walls_.count(),
+                     chosen_slots(near_walls_.list(), EvolveWalls{wall_fluid_.view().count, wall_rate_.data(),
+                                                                  wall_density_.data(), wall_record_.data(),
+                                                                  parameters_.paper_form, dt}));
 }
 
 template <class Exec>
 FluidExtremes FluidSystem<Exec>::extremes() {
-  return exec::reduce(exec_, "sph::extremes", slots(), FluidExtremes{},
-                      ExtremeOf{state_view(), id_.data(), coupled_ ? porosity_.data() : nullptr, parameters_.cavitates}, CombineExtremes{});
+  return exec::reduce(exec_, "sph::extremes", awake_slots(), FluidExtremes{},
+                      chosen_slots(awake_list(), ExtremeOf{state_view(), id_.data(), porous_ ? porosity_.data() : nullptr,
+                                                           parameters_.cavitates}),
+                      CombineExtremes{});
 }
 
 template <class Exec>
@@ -302,6 +314,7 @@ template FluidStateView FluidSystem<exec::CompiledBackend>::state_view();
 template RecordPacker FluidSystem<exec::CompiledBackend>::packer();
 template void FluidSystem<exec::CompiledBackend>::half_drift(float, float);
 template void FluidSystem<exec::CompiledBackend>::pack();
+template void FluidSystem<exec::CompiledBackend>::pack_all();
 template void FluidSystem<exec::CompiledBackend>::kick_drift(float, float);
 template void FluidSystem<exec::CompiledBackend>::verlet_predict(float);
 template void FluidSystem<exec::CompiledBackend>::verlet_correct(float);

@@ -12,6 +12,8 @@ namespace {
 constexpr double granular_share = 0.7;       // of the speed of free fall
 constexpr double fastest_slide = 100.0;      // m/s
 constexpr double sound_over_speed = 10.0;
+constexpr double rest_over_depth_time = 5.0;  // sqrt(H/g), H the height of the water, that water stays awake undisturbed
+constexpr double unresolved_layer = 0.2;      // dp
 
 struct Extent { double low = INFINITY, high = -INFINITY, sum = 0.0; std::size_t count = 0;
   void add(double z) { low = std::min(low, z); high = std::max(high, z); sum += z; ++count; }
@@ -69,6 +71,18 @@ void consider_motions(const Case& c, ExpectedSpeed& expected) {
   }
 }
 
+sph::ActivityParameters activity_parameters(const Case& c) {
+  sph::ActivityParameters p;
+  p.sleep = c.scene.economy.sleep;
+  p.wake_speed = c.scene.economy.wake_speed;
+  p.near_walls = c.scene.economy.near_walls;
+  if (!c.fluid.position.empty()) {
+    const Extent water = extent_of(c.fluid.position);
+    p.rest_time = rest_over_depth_time * std::sqrt((water.high - water.low + c.scene.dp) / std::max(norm(c.scene.gravity), 1.0e-9));
+  }
+  return p;
+}
+
 sph::FluidParameters fluid_parameters(const Case& c) {
   const Scene& s = c.scene;
   const Numerics& n = s.numerics;
@@ -92,6 +106,8 @@ sph::FluidParameters fluid_parameters(const Case& c) {
   p.dimensions = s.dimensions;
   p.skin = n.skin;
   p.level = c.still_water_level;
+  p.activity = activity_parameters(c);
+  if (viscosity_is_without_effect(s)) p.viscosity = sph::Viscosity::none;
   return p;
 }
 
@@ -174,6 +190,11 @@ ExpectedSpeed expected_speed(const Case& c) {
     throw Error(ErrorKind::input, "no speed can be expected (no gravity, nothing moves): give numerics.expected_speed "
                                   "or numerics.sound_speed (m/s)");
   return expected;
+}
+
+bool viscosity_is_without_effect(const Scene& s) {
+  return s.economy.viscosity && s.numerics.viscosity == "morris" &&
+         std::sqrt(s.fluid.kinematic_viscosity * s.time.end) < unresolved_layer * s.dp;
 }
 
 SimulationInput case_to_input(Case& c) {

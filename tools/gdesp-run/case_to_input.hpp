@@ -20,6 +20,10 @@ struct ExpectedSpeed { double speed = 0.0; std::string source; };
 ///   prescribed bodies other than gates: their own speed; initial velocities.
 ExpectedSpeed expected_speed(const Case& c);
 
+/// True when the scene's viscosity (morris) acts over less than 0.2 dp until the end, sqrt(nu t): particles cannot see
+/// it, the run leaves it out (economy.viscosity).
+bool viscosity_is_without_effect(const Scene& scene);
+
 /// Everything the solver needs. Lengths and times as in the scene; the sound speed is numerics.sound_speed or ten
 /// times the expected speed (density errors below about 1 %, Monaghan 1994, doi:10.1006/jcph.1994.1034).
 /// The particle tables are moved out of `c`. Throws Error(input) for an option the solver does not have.

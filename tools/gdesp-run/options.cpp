@@ -10,6 +10,7 @@
 #include "exec/backend.hpp"
 #include "io/frame.hpp"
 #include "run_files.hpp"
+#include "target.hpp"
 
 namespace gdesp::tool {
 namespace {
@@ -28,6 +29,7 @@ const char* const example =
     "  gdesp-run lake.case -o lake.run --set numerics.cfl=0.4\n"
     "  mesh2particles lake.toml -o lake.case | gdesp-run - -o lake.run | surge-analyze runup - > runup.tsv\n"
     "  gdesp-run lake.case -o lake.run --resume      after an interruption\n"
+    "  gdesp-run lake.toml -o lake.run --accuracy 5% --budget 30min\n"
     "Exit codes: 0 done; 2 usage; 3 bad input; 4 numerical failure; 5 device or resource; 130 interrupted.\n";
 
 po::options_description own_options() {
@@ -41,6 +43,10 @@ po::options_description own_options() {
   o.add_options()("preset", po::value<std::string>()->value_name("NAME"), "numerics.preset: accurate or paper");
   o.add_options()("set", po::value<std::vector<std::string>>()->value_name("KEY=VALUE"),
                   "changes a key of the scene that needs no new particles; may be repeated");
+  o.add_options()("accuracy", po::value<std::string>()->value_name("SHARE"),
+                  "CASE is a scene: pilot runs choose the dp that gives the run-up this well, such as 5%");
+  o.add_options()("budget", po::value<std::string>()->value_name("TIME"),
+                  "CASE is a scene: the finest dp that this wall time pays for, such as 10min; both: whichever binds");
   o.add_options()("resume", "goes on from the newest sound checkpoint in RUN");
   o.add_options()("checkpoint-every", po::value<double>()->value_name("S")->default_value(0.0, "600"),
                   "wall time between checkpoints; an interrupted run always writes one");
@@ -82,12 +88,16 @@ RunOptions collect(const po::variables_map& vm) {
   if (vm.count("preset")) o.overrides.push_back({"numerics.preset", vm["preset"].as<std::string>()});
   if (vm.count("set"))
     for (const std::string& text : vm["set"].as<std::vector<std::string>>()) o.overrides.push_back(cli::parse_override(text));
+  if (vm.count("accuracy")) o.accuracy = parse_accuracy(vm["accuracy"].as<std::string>());
+  if (vm.count("budget")) o.budget = parse_duration(vm["budget"].as<std::string>());
   o.checkpoint_every = vm["checkpoint-every"].defaulted() ? 600.0 : positive_seconds(vm, "checkpoint-every");
   o.resume = vm.count("resume") > 0;
   o.explain = vm.count("explain") > 0;
   o.profile = vm.count("profile") > 0;
   o.force = vm.count("force") > 0;
   if (o.resume && o.force) throw Error(ErrorKind::usage, "--resume and --force contradict each other: go on, or start anew?");
+  if ((o.accuracy > 0.0 || o.budget > 0.0) && (o.resume || o.explain))
+    throw Error(ErrorKind::usage, "--accuracy and --budget choose a case to run: neither --resume nor --explain goes with them");
   return o;
 }
 

@@ -18,6 +18,7 @@ struct RunOptions {
   std::optional<double> t_end;          ///< s; default: the scene's
   std::optional<double> output_interval;  ///< s; set when a run goes on: that of its start
   std::vector<Override> overrides;      ///< --preset and --set, in this order
+  double accuracy = 0.0, budget = 0.0;  ///< targets (target.hpp): share of the run-up, s of wall time; 0: none
   double checkpoint_every = 0.0;        ///< s of wall time; 0: only when interrupted
   bool resume = false, explain = false, profile = false, force = false;
   std::vector<std::string> arguments;   ///< as typed

@@ -56,7 +56,8 @@ ordered_json diagnostics_record(const Diagnostics& d) {
           {"largest_speed", d.largest_speed}, {"largest_grain_speed", d.largest_grain_speed}, {"mach", d.mach},
           {"largest_density_error", d.largest_density_error}, {"largest_overlap", d.largest_overlap},
           {"deepest_in_wall", d.deepest_in_wall}, {"fluid_particles", d.fluid_particles}, {"grains", d.grains}, {"lost_fluid", d.lost_fluid},
-          {"lost_grains", d.lost_grains}, {"rebuilds", d.rebuilds}, {"grain_substeps", d.grain_substeps}};
+          {"lost_grains", d.lost_grains}, {"rebuilds", d.rebuilds}, {"grain_substeps", d.grain_substeps},
+          {"awake_share", d.awake_share}};
 }
 
 DiagnosticsLog::DiagnosticsLog(const std::string& run_folder, std::int64_t last_step)

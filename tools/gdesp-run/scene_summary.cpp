@@ -12,6 +12,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "dem/linear_spring_dashpot.hpp"
 #include "dem/time_step_limits.hpp"
 #include "exec/backend.hpp"
 #include "simulation/time_step_limits.hpp"
@@ -115,16 +116,18 @@ void describe_bodies(SceneSummary& s, const SimulationInput& in) {
                           : std::to_string(free) + " free, " + std::to_string(prescribed) + " with prescribed motion");
 }
 
-/// s, of the smallest grain.
+/// s, of the smallest grain; in the plane grains are rods, and their contacts are linear.
 double grain_step(const Scene& scene, const SimulationInput& in) {
   const Contact& c = scene.contact;
+  const bool plane = scene.dimensions == 2;
+  const double line = dem::line_contact_stiffness(0.5 * c.youngs_modulus / (1.0 - c.poisson_ratio * c.poisson_ratio));
   double least = INFINITY;
   for (std::size_t i = 0; i < in.grains.position.size(); ++i) {
     const double radius = 0.5 * static_cast<double>(in.grains.diameter[i]), density = in.grains.density[i];
-    const double mass = 4.18879 * density * radius * radius * radius;
-    least = std::min(least, c.law == "hertz"
+    const double mass = density * (plane ? 3.14159265 * radius * radius : 4.1887902 * radius * radius * radius);
+    least = std::min(least, c.law == "hertz" && !plane
                                 ? dem::rayleigh_time(radius, density, c.youngs_modulus, c.poisson_ratio)
-                                : dem::linear_contact_time(c.stiffness, 0.5 * mass, c.restitution));
+                                : 0.25 * dem::linear_contact_time(c.law == "hertz" ? line : c.stiffness, 0.5 * mass, c.restitution));
   }
   return in.time.grain_step_share * least;
 }

@@ -5,6 +5,7 @@
 #include "exec/backend.hpp"
 #include "exec/profile.hpp"
 #include "moving_surfaces.hpp"
+#include "scene_economy.hpp"
 
 namespace gdesp::tool {
 namespace {
@@ -49,7 +50,6 @@ Session prepare(RunOptions options) {
   s.device = resolve_device(options.device);
   s.threads = exec::set_threads(options.threads);
   s.device_name = name_of_device(s.device, s.threads);
-  exec::set_profiling(options.profile);
   cli::detail("reading " + options.case_path);
   s.scene_case = read_case(options.case_path, options.overrides);
   TimeControl& time = s.scene_case.scene.time;
@@ -62,6 +62,8 @@ Session prepare(RunOptions options) {
   s.summary = summarize(s.scene_case.scene, s.input, expected, s.device, s.threads);
   if (s.summary.moving_particles == 0)
     throw Error(ErrorKind::input, options.case_path + ": has neither water nor grains; there is nothing to simulate");
+  describe_economies(s.summary, s.scene_case.scene, s.input, expected, measure_step_costs(s.input, s.device));
+  exec::set_profiling(options.profile);
   s.options = std::move(options);
   return s;
 }

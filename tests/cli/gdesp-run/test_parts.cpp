@@ -88,6 +88,7 @@ TEST(CaseToInput, every_parameter_arrives) {
   c.scene.numerics.time_scheme = "verlet";
   c.scene.numerics.walls = "dynamic";
   c.scene.numerics.viscosity = "morris";
+  c.scene.economy.viscosity = false;
   c.scene.numerics.sound_speed = 123.0;
   c.scene.numerics.cfl = 0.3;
   c.scene.numerics.time_step = 0.01;

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a step costs on this device: measured when a run starts, on a small tank of water with the numerics of the scene
+// and on a small lattice of grains with its contact law (together about a tenth of a second on one core).
+#pragma once
+
+#include <string>
+
+#include "simulation/simulation_input.hpp"
+
+namespace gdesp::tool {
+
+/// s; 0 where the scene has no such thing.
+struct StepCosts {
+  double water = 0.0;      ///< per water particle and step of the fluid
+  double wall = 0.0;       ///< per wall particle beside water and step of the fluid
+  double grain = 0.0;      ///< per grain and step of the grains
+  double coupling = 0.0;   ///< per grain and step of the fluid, while it is in water
+};
+
+/// Walls and coupling are taken in proportion to water: 0.3 a wall particle (two of its passes are light), and half a
+/// particle's cost times (h_c/h)^dimensions a grain, as measured in Alpe Gera (docs/economy.md).
+StepCosts measure_step_costs(const SimulationInput& scene, const std::string& device);
+
+/// s of wall time for one step of the fluid with `grain_steps` steps of the grains.
+struct StepWork { double water = 0.0, walls = 0.0, grains = 0.0, grain_steps = 1.0; };
+double step_seconds(const StepCosts& costs, const StepWork& work);
+
+}  // namespace gdesp::tool
