@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 constexpr double refinement = 1.3;           // between pilots
-constexpr double pilot_particles = 3000.0;   // of water, in the coarsest
+constexpr double plane_particles = 1500.0, space_particles = 3000.0;  // of water, in the coarsest pilot
 constexpr std::size_t least_pilots = 3, most_pilots = 6;
 constexpr double pilot_share = 0.1;          // of the budget, for the finest pilot
 
@@ -118,8 +118,9 @@ double highest_run_up(const std::string& run_folder) {
 
 double wall_seconds_of(const std::string& run_folder) { return read_run_json(run_folder).value("wall_seconds", 0.0); }
 
-/// The spacing at which the scene has about `pilot_particles` water particles.
+/// The spacing at which the scene has as many water particles as the coarsest pilot should.
 double first_dp(const RunOptions& o, const Scene& scene, const std::string& folder) {
+  const double pilot_particles = scene.dimensions == 2 ? plane_particles : space_particles;
   double dp = 4.0 * scene.dp;
   for (int attempt = 0; attempt < 4; ++attempt) {
     const double n = build(o, scene, dp, folder + "/first.case").value("fluid", 0.0);
