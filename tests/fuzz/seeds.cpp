@@ -6,6 +6,7 @@
 #include <openvdb/points/PointAttribute.h>
 #include <openvdb/points/PointConversion.h>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -147,7 +148,7 @@ SimulationInput small_tank() {
 Seeds checkpoint_seeds(const std::string& folder) {
   const std::unique_ptr<Simulation> simulation = make_simulation(small_tank(), "cpu");
   for (int k = 0; k < 3; ++k) simulation->step(1.0);
-  const tool::Checkpoint c = tool::CheckpointFiles(folder + "/seed.run", checkpoint_fingerprint).write(*simulation, 1.0);
+  const tool::Checkpoint c = tool::CheckpointFiles(folder + "/seed.run", checkpoint_fingerprint).write(*simulation, tool::Watch{}, 1.0);
   return {{"a.state", test::text_of_file(c.path)}};
 }
 
@@ -157,7 +158,8 @@ std::string with_sound_trailer(std::string bytes) {
   bytes.resize(bytes.size() - sizeof(Trailer));
   tool::Checksum checksum;
   checksum.add(bytes.data(), bytes.size());
-  Trailer trailer{bytes.size(), checksum.value(), {'G', 'D', 'E', 'S', 'P', 'C', 'K', '1'}};
+  Trailer trailer{bytes.size(), checksum.value(), {}};
+  std::memcpy(trailer.mark, bytes.data(), std::min(bytes.size(), sizeof trailer.mark));   // the file begins with the same mark
   put(bytes, trailer);
   return bytes;
 }
