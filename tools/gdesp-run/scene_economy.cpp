@@ -59,7 +59,7 @@ double slide_thickness(const SimulationInput& in, double diameter) {
   return most / (packing * std::pow(width, dimensions - 1));
 }
 
-std::string percent(double share) { return number_text(100.0 * share, 2) + " %"; }
+std::string percent(double share) { return number_text(100.0 * share, share < 0.1 ? 2 : 3) + " %"; }
 
 std::string label(const char* name, const std::string& text) {
   std::string line = name;
@@ -213,8 +213,8 @@ void describe_economies(SceneSummary& s, const Scene& scene, const SimulationInp
   s.json["economies"] = nlohmann::ordered_json::object();
   if (reach.particles < 1.0 || reach.steps < 0.99 || sleeps)
     add(s, "  still water", sleeps, 1.0 - reach.steps,
-        (sleeps ? std::string("sleeps until disturbed") : std::string("could sleep until disturbed (economy.sleep = true)")) + ": waves reach " +
-            percent(reach.particles) + " of the water until the end, " + percent(reach.steps) + " of all particle steps");
+        std::string(sleeps ? "sleeps until disturbed" : "could sleep (economy.sleep = true; steep waves lose some percent, docs/economy.md)") +
+            ": waves reach " + percent(reach.particles) + " of the water until the end, " + percent(reach.steps) + " of all particle steps");
   if (!in.boundary.position.empty())
     add(s, "  walls", in.fluid_parameters.activity.near_walls, 0.0,
         std::to_string(beside) + " of " + std::to_string(in.boundary.position.size()) + " particles lie beside water at the start; " +
