@@ -148,7 +148,7 @@ SimulationInput small_tank() {
 Seeds checkpoint_seeds(const std::string& folder) {
   const std::unique_ptr<Simulation> simulation = make_simulation(small_tank(), "cpu");
   for (int k = 0; k < 3; ++k) simulation->step(1.0);
-  const tool::Watch watch;
+  tool::Watch watch;
   const tool::Checkpoint c = tool::CheckpointFiles(folder + "/seed.run", checkpoint_fingerprint).write(*simulation, watch, 1.0);
   return {{"a.state", test::text_of_file(c.path)}};
 }
