@@ -115,8 +115,11 @@ def frame_near(run, time, kind="fluid"):
     return t, read_vtp(path)
 
 
-def connected_front(grains, direction=0, gap=0.25):
-    """Outer edge (m) along an axis of the largest heap of grains that touch, or nearly: `gap` of a diameter apart at most."""
+def connected_front(grains, direction=0, gap=0.25, depth=0.0):
+    """Outer edge (m) along an axis of the largest heap of grains that touch, or nearly: `gap` of a diameter apart at most.
+
+    With a `depth` (m above z = 0) the outermost of them whose top is that high: a lone grain in front is no deposit.
+    """
     places, sizes = grains["position"], grains["diameter"]
     width = (1.0 + gap) * max(sizes)
     cells = {}
@@ -136,7 +139,7 @@ def connected_front(grains, direction=0, gap=0.25):
                         heap_of[other] = seed
                         heap.append(other)
         largest = max(largest, heap, key=len)
-    return max(places[k][direction] + 0.5 * sizes[k] for k in largest)
+    return max(places[k][direction] + 0.5 * sizes[k] for k in largest if places[k][2] + 0.5 * sizes[k] >= depth)
 
 
 def root_mean_square(values):

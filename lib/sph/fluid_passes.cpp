@@ -69,7 +69,7 @@ struct FluidPass {
   }
 };
 
-// sum V0 W over water and walls: 1 on the full lattice.
+// sum V0 W over water and over walls, two rows of 4 a cluster.
 struct LatticeShare {
   float inverse_support, scale;
   ClusterListView fluid_list, wall_list;
@@ -77,21 +77,25 @@ struct LatticeShare {
   const float* walls;
   float* share;
   template <class Lanes>
-  GDESP_HD void operator()(Index c, const Lanes& lanes) const {
+  GDESP_HD typename Lanes::Real sum(const ClusterListView& list, Index c, const float* others, const Lanes& lanes) const {
     using Real = typename Lanes::Real;
+    using real::max;
+    using real::sqrt;
     const float* ri = fluid + record_offset(c);
     const Real x = lanes.load_i(ri + row_x), y = lanes.load_i(ri + row_y), z = lanes.load_i(ri + row_z);
-    Real sum(0.0f);
-    const auto add = [&](const float* rj, const Vec3f& shift) {
-      using real::max;
-      using real::sqrt;
+    Real total(0.0f);
+    for_each_cluster(list, c, [&](Index j, const Vec3f& shift) {
+      const float* rj = others + record_offset(j);
       const Real dx = x + Real(shift.x) - lanes.load_j(rj + row_x), dy = y + Real(shift.y) - lanes.load_j(rj + row_y),
                  dz = z + Real(shift.z) - lanes.load_j(rj + row_z);
-      sum += wendland_shape(max(Real(0.0f), Real(1.0f) - sqrt(dx * dx + dy * dy + dz * dz) * Real(inverse_support)));
-    };
-    for_each_cluster(fluid_list, c, [&](Index j, const Vec3f& shift) { add(fluid + record_offset(j), shift); });
-    for_each_cluster(wall_list, c, [&](Index j, const Vec3f& shift) { add(walls + record_offset(j), shift); });
-    lanes.store_sum_i(share + 4 * static_cast<std::int64_t>(c), sum * Real(scale));
+      total += wendland_shape(max(Real(0.0f), Real(1.0f) - sqrt(dx * dx + dy * dy + dz * dz) * Real(inverse_support)));
+    });
+    return total * Real(scale);
+  }
+  template <class Lanes>
+  GDESP_HD void operator()(Index c, const Lanes& lanes) const {
+    lanes.store_sum_i(share + 8 * static_cast<std::int64_t>(c), sum(fluid_list, c, fluid, lanes));
+    lanes.store_sum_i(share + 8 * static_cast<std::int64_t>(c) + 4, sum(wall_list, c, walls, lanes));
   }
 };
 

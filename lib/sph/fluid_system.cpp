@@ -44,11 +44,12 @@ struct KeepFilling {
   float* filling;
   GDESP_HD void operator()(Index s) const {
     filling[2 * static_cast<std::int64_t>(s)] = density[s];
-    filling[2 * static_cast<std::int64_t>(s) + 1] = share[s];
+    const float* q = share + 8 * static_cast<std::int64_t>(s / exec::cluster_size) + s % exec::cluster_size;
+    filling[2 * static_cast<std::int64_t>(s) + 1] = q[0] / real::max(1.0f - q[4], 0.1f);   // of the room that walls leave
   }
 };
-// Water at its true density in pores. Where the table has particles as if there were no grains, they get the mass of what
-// the pores hold; where there are already fewer of them, all of theirs.
+// Water at its true density in pores: the masses are what the pores hold, over the particles that the table has there (all
+// of the lattice, or already fewer). Overfull pores stay so, since SPH does not look at particles a volume again.
 struct FillPores {
   const std::uint32_t* id;
   const float* porosity;
@@ -57,9 +58,10 @@ struct FillPores {
   float* mass_share;
   GDESP_HD void operator()(Index s) const {
     if (id[s] == no_particle) return;
-    const float room = porosity[s] / filling[2 * static_cast<std::int64_t>(s) + 1];
-    density[s] = (1.0f + filling[2 * static_cast<std::int64_t>(s)]) * porosity[s] - 1.0f;
-    mass_share[s] = room < 0.8f ? room : 1.0f;
+    const float eps = porosity[s], share = filling[2 * static_cast<std::int64_t>(s) + 1];
+    density[s] = (1.0f + filling[2 * static_cast<std::int64_t>(s)]) * eps - 1.0f;
+    // Near the free surface the lattice share says nothing.
+    mass_share[s] = eps > 0.99f || share < 0.9f * eps ? 1.0f : eps / share;
   }
 };
 
@@ -276,7 +278,7 @@ void FluidSystem<Exec>::reset_coupling() {
 template <class Exec>
 void FluidSystem<Exec>::fill_pores(bool first) {
   if (first) {
-    scratch_float_.resize_discard(static_cast<std::size_t>(slots()));
+    scratch_float_.resize_discard(2 * static_cast<std::size_t>(slots()));
     lattice_share_pass(scratch_float_.data());
     filling_.resize_discard(2 * static_cast<std::size_t>(slots()));
     exec::parallel_for(exec_, "sph::keep_filling", slots(), KeepFilling{density_.data(), scratch_float_.data(), filling_.data()});

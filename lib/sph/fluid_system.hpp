@@ -142,7 +142,7 @@ class FluidSystem {
   void sort_fluid();
   void sort_walls();
   void pack_walls();
-  void lattice_share_pass(float* share);                 ///< V0 times particles a volume, by slot
+  void lattice_share_pass(float* share);                 ///< V0 times particles a volume: water, walls
   void pack_all();
   void update_activity(double t, const Movers& movers);
   void build_lists();

@@ -14,7 +14,7 @@ start, end = tools.frame_near(run, RELEASE, "grains")[1], tools.frame_near(run, 
 top = sorted(r[2] + 0.5 * d for r, d in zip(start["position"], start["diameter"]))
 height = top[int(0.98 * len(top))]
 a = height / LENGTH
-front = tools.connected_front(end)
+front = tools.connected_front(end, depth=1.5 * max(end["diameter"]))
 law = 1.2 * a if a < 2.3 else 1.9 * a ** (2.0 / 3.0)
 rows.relative(f"run-out (L - L0)/L0 at a = {a:.2f}", "1", front / LENGTH - 1.0, law, 0.15)
 rest = max(sum(c * c for c in v) ** 0.5 for v, r in zip(end["velocity"], end["position"]) if r[0] < front)

@@ -25,7 +25,7 @@ start, end = heap(RELEASE), heap(1e9)
 top = sorted(r[2] + 0.5 * d for r, d in zip(start["position"], start["diameter"]))
 height = top[int(0.99 * len(top))]
 a = height / LENGTH
-front = tools.connected_front(end)
+front = tools.connected_front(end, depth=1.5 * max(end["diameter"]))
 rows.relative(f"run-out (L - L0)/L0 at a = {a:.3f}, against 1.2 a of rough grains", "1", front / LENGTH - 1.0, 1.2 * a, 0.20)
 back = max(r[2] + 0.5 * d for r, d in zip(end["position"], end["diameter"]) if r[0] < 0.1 * LENGTH)
 rows.relative("height left at the wall / height before", "1", back, height, 0.05)
