@@ -1,35 +1,42 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The fluid's pair passes and the neighbour build on a jittered block of water, h = 1.3 dp.
-#include <cmath>
-#include <cstdlib>
-#include <random>
-
-#include "bench.hpp"
-#include "exec/parallel.hpp"
+// The fluid's pair passes and the neighbour build on a jittered block of water, h = 1.3 dp, skin 0.1 h, artificial
+// viscosity and density diffusion.
+// usage: bench_sph_force [sizes] [threads]
+#include "counted_real.hpp"
+#include "scenes.hpp"
 #include "sph/fluid_system.hpp"
+#include "sph/wendland_c2.hpp"
 
 namespace {
 
 using namespace gdesp;
+using bench::CountedReal;
 
-FluidTable jittered_block(int n, double dp) {
-  FluidTable table;
-  std::mt19937 random(1);
-  std::uniform_real_distribution<double> jitter(-0.15 * dp, 0.15 * dp);
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j)
-      for (int k = 0; k < n; ++k) {
-        table.position.push_back({(i + 0.5) * dp + jitter(random), (j + 0.5) * dp + jitter(random),
-                                  (k + 0.5) * dp + jitter(random)});
-        table.velocity.push_back({static_cast<float>(jitter(random)), 0.0f, 0.0f});
-        table.density.push_back(1000.0f);
-      }
-  return table;
+// Operations of one pair, by running the law on a counting real. The differences of places and velocities are six more.
+template <bool Momentum, bool Continuity>
+double pair_operations() {
+  sph::FluidPairLaw law{};
+  sph::FluidRates<CountedReal> rates;
+  const CountedReal one(1.0f);
+  return 6.0 + bench::operations_of([&] {
+    sph::add_fluid_pair<Momentum, Continuity, sph::Viscosity::artificial, true>(law, one, one, one, one, one, one, one,
+                                                                                one, one, one, rates);
+  });
+}
+
+// Neighbours inside the support on the undisturbed lattice.
+double neighbours(double h_over_dp) {
+  const int reach = static_cast<int>(2.0 * h_over_dp) + 1;
+  double count = -1.0;
+  for (int i = -reach; i <= reach; ++i)
+    for (int j = -reach; j <= reach; ++j)
+      for (int k = -reach; k <= reach; ++k) count += std::sqrt(i * i + j * j + k * k) < 2.0 * h_over_dp ? 1.0 : 0.0;
+  return count;
 }
 
 void run(long wanted, int threads) {
-  const double dp = 0.01;
-  const int n = static_cast<int>(std::cbrt(static_cast<double>(wanted)) + 0.5);
+  const double dp = bench::spacing;
+  const int n = static_cast<int>(std::lround(std::cbrt(static_cast<double>(wanted))));
   const bool periodic[3] = {false, false, false};
   const Domain domain = make_domain({-0.1, -0.1, -0.1}, {n * dp + 0.1, n * dp + 0.1, n * dp + 0.1}, dp, periodic, 3);
   sph::FluidParameters parameters;
@@ -37,25 +44,33 @@ void run(long wanted, int threads) {
   parameters.h = 1.3 * dp;
   parameters.sound_speed = 40.0;
   parameters.skin = 0.1 * parameters.h;
-  sph::FluidSystem<exec::OpenMP> fluid({}, domain, parameters, jittered_block(n, dp), {});
+  const std::size_t before = exec::allocated_bytes();
+  sph::FluidSystem<exec::OpenMP> fluid({}, domain, parameters, bench::jittered_block(n, dp), {});
   const long particles = fluid.particles();
-  using gdesp::bench::best_seconds;
-  using gdesp::bench::print;
-  const double both = best_seconds(7, [&] { fluid.combined_pass(); });
-  print("sph_force", particles, threads, "cpu", particles / both, "particle evaluations/s");
-  const double momentum = best_seconds(7, [&] { fluid.momentum_pass(); });
-  print("sph_momentum", particles, threads, "cpu", particles / momentum, "particle evaluations/s");
-  const double continuity = best_seconds(7, [&] { fluid.continuity_pass(); });
-  print("sph_continuity", particles, threads, "cpu", particles / continuity, "particle evaluations/s");
-  const double build = best_seconds(5, [&] { fluid.rebuild(0.0); });
-  print("neighbour_build", particles, threads, "cpu", particles / build, "particles/s");
+  const double lanes = 16.0 * static_cast<double>(fluid.list_entries()) / static_cast<double>(particles);
+  const double pairs = neighbours(1.3), list_bytes = 4.0 * lanes / 16.0;
+  const auto report = [&](const char* name, double seconds, double operations) {
+    bench::print({name, particles, threads}, static_cast<double>(particles) / seconds, "particle evaluations/s",
+                 {{"flop_per_particle", operations * pairs},
+                  {"bytes_per_particle", 32.0 + 16.0 + 4.0 + list_bytes},
+                  {"lanes_per_neighbour", lanes / pairs},
+                  {"memory_per_particle", bench::bytes_each(before, particles)}});
+  };
+  bench::start_profile();
+  const int repeats = particles > 500000 ? 3 : 7;
+  double both = 1e30, momentum = 1e30, continuity = 1e30;
+  for (int k = 0; k < repeats; ++k) {  // interleaved: a disturbance of the machine meets all
+    both = std::min(both, bench::seconds_of([&] { fluid.combined_pass(); }));
+    momentum = std::min(momentum, bench::seconds_of([&] { fluid.momentum_pass(); }));
+    continuity = std::min(continuity, bench::seconds_of([&] { fluid.continuity_pass(); }));
+  }
+  report("sph_force", both, pair_operations<true, true>());
+  report("sph_momentum", momentum, pair_operations<true, false>());
+  report("sph_continuity", continuity, pair_operations<false, true>());
+  const double build = bench::best_seconds(std::max(2, repeats / 2), [&] { fluid.rebuild(0.0); });
+  bench::print({"neighbour_build", particles, threads}, static_cast<double>(particles) / build, "particles/s");
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  for (int k = 1; k < argc; ++k) {
-    for (int threads : {1, 2}) run(std::atol(argv[k]), exec::set_threads(threads));
-  }
-  return 0;
-}
+int main(int argc, char** argv) { return bench::for_each_case(argc, argv, "100000", run); }

@@ -39,7 +39,7 @@ if(CMAKE_BUILD_TYPE STREQUAL "Debug")
   list(REMOVE_ITEM GDESP_KERNEL_FLAGS -O3)
 endif()
 if(GDESP_NATIVE)
-  list(APPEND GDESP_KERNEL_FLAGS -march=native -mprefer-vector-width=512 -Wno-maybe-uninitialized)
+  list(APPEND GDESP_KERNEL_FLAGS -march=native -mprefer-vector-width=512 -Wno-maybe-uninitialized -Wno-uninitialized)
 endif()
 
 function(gdesp_kernel_target target)

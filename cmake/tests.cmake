@@ -14,7 +14,8 @@ function(gdesp_test)
     GDESP_SOURCE_DIR="${CMAKE_SOURCE_DIR}" GDESP_BINARY_DIR="${CMAKE_BINARY_DIR}")
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   add_test(NAME ${name} COMMAND ${name} WORKING_DIRECTORY ${CMAKE_BINARY_DIR})
-  set_tests_properties(${name} PROPERTIES LABELS ${T_LABEL} TIMEOUT ${T_TIMEOUT}
+  # Threads that wait spin briefly (exec::wait_briefly): tests share the machine with each other.
+  set_tests_properties(${name} PROPERTIES LABELS ${T_LABEL} TIMEOUT ${T_TIMEOUT} ENVIRONMENT GOMP_SPINCOUNT=10000
     SKIP_REGULAR_EXPRESSION "\\[  PASSED  \\] 0 tests\\.\n(\\[  SKIPPED \\][^\n]*\n)+$")  # all cases skipped, none failed
 endfunction()
 # gdesp_script_test(NAME name LABEL tier COMMAND ...): a shell-level test; exit 77 is a visible skip.
@@ -24,5 +25,6 @@ function(gdesp_script_test)
     set(T_TIMEOUT 120)
   endif()
   add_test(NAME ${T_LABEL}_${T_NAME} COMMAND ${T_COMMAND} WORKING_DIRECTORY ${CMAKE_BINARY_DIR})
-  set_tests_properties(${T_LABEL}_${T_NAME} PROPERTIES LABELS ${T_LABEL} TIMEOUT ${T_TIMEOUT} SKIP_RETURN_CODE 77)
+  set_tests_properties(${T_LABEL}_${T_NAME} PROPERTIES LABELS ${T_LABEL} TIMEOUT ${T_TIMEOUT} SKIP_RETURN_CODE 77
+    ENVIRONMENT GOMP_SPINCOUNT=10000)
 endfunction()

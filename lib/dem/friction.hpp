@@ -41,9 +41,9 @@ struct ContactMotion {
 /// The tangential force on i, N; `history` (N) goes from half a step before to half a step after now.
 template <class R>
 GDESP_HD inline Vec3<R> tangential_force(const ContactCoefficients<R>& c, const ContactMotion<R>& m, Vec3<R>& history) {
+  using real::inverse_sqrt;
   using real::max;
   using real::min;
-  using real::sqrt;
   const R along = dot(history, m.n);
   const R before = c.tangential_stiffness * m.half_before;
   Vec3<R> f{m.unloading * (history.x - along * m.n.x) - before * m.v_t.x,
@@ -51,8 +51,7 @@ GDESP_HD inline Vec3<R> tangential_force(const ContactCoefficients<R>& c, const 
             m.unloading * (history.z - along * m.n.z) - before * m.v_t.z};
   Vec3<R> force{f.x - c.tangential_damping * m.v_t.x, f.y - c.tangential_damping * m.v_t.y,
                 f.z - c.tangential_damping * m.v_t.z};
-  const R size = sqrt(dot(force, force));
-  const R scale = min(R(1.0f), m.cap / max(size, R(1.0e-30f)));
+  const R scale = min(R(1.0f), m.cap * inverse_sqrt(max(dot(force, force), R(1.0e-37f))));
   const R after = c.tangential_stiffness * m.half_after;
   history = {f.x * scale - after * m.v_t.x, f.y * scale - after * m.v_t.y, f.z * scale - after * m.v_t.z};
   return {force.x * scale, force.y * scale, force.z * scale};

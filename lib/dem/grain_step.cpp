@@ -14,7 +14,7 @@ struct GrainStep {
   template <class R>
   struct Sums {
     Vec3<R> force{}, torque{};   // N; N m / radius
-    R overlap{0.0f};             // overlap / diameter
+    R overlap{0.0f};             // overlap / sum of radii
   };
 
   // What rolling resistance needs of a row besides the contacts: which lanes touch, and the neighbours' records.
@@ -32,9 +32,9 @@ struct GrainStep {
                         Sums<typename Lanes::Real>& sums) const {
     using R = typename Lanes::Real;
     using I = typename Lanes::Int;
+    using real::inverse_sqrt;
     using real::max;
     using real::select;
-    using real::sqrt;
     ContactRow& row = v.contacts.rows[index];
     const I j = lanes.load(row.neighbour);
     const float* records = reinterpret_cast<const float*>(v.now);
@@ -43,7 +43,7 @@ struct GrainStep {
     const Vec3<R> r{lanes.value(I(own.x) - lanes.bits(q[0])) * R(v.unit.metres.x),
                     lanes.value(I(own.y) - lanes.bits(q[1])) * R(v.unit.metres.y),
                     lanes.value(I(own.z) - lanes.bits(q[2])) * R(v.unit.metres.z)};
-    const R distance = sqrt(max(dot(r, r), R(1.0e-30f)));
+    const R distance2 = max(dot(r, r), R(1.0e-30f)), inverse = inverse_sqrt(distance2), distance = distance2 * inverse;
     const R reach = R(own.radius) + q[3];
     const R overlap = reach - distance;
     const auto touching = overlap > R(0.0f);
@@ -53,10 +53,10 @@ struct GrainStep {
       return;
     }
     ContactGeometry<R> g;
-    const R inverse = R(1.0f) / distance;
     g.n = {r.x * inverse, r.y * inverse, r.z * inverse};
     g.overlap = max(overlap, R(1.0e-30f));
-    g.radius = (R(own.radius) * q[3]) / reach;
+    const R inverse_reach = R(1.0f) / reach;
+    g.radius = (R(own.radius) * q[3]) * inverse_reach;
     R velocity[4];
     lanes.gather4(records + 4, record_floats, j, velocity);
     g.mass = harmonic_half(R(own.mass), velocity[3]);
@@ -64,7 +64,7 @@ struct GrainStep {
     R spin[4];
     lanes.gather4(records + 8, record_floats, j, spin);
     // Arms share the distance as the radii do: together they are |r_ij|, so angular momentum is kept exactly.
-    const R share = distance / reach;
+    const R share = distance * inverse_reach;
     const Vec3<R> surface{(R(own.sx) + spin[0]) * share, (R(own.sy) + spin[1]) * share, (R(own.sz) + spin[2]) * share};
     const Vec3<R> turning = cross(surface, g.n);
     g.velocity = {(R(own.vx) - velocity[0]) - turning.x, (R(own.vy) - velocity[1]) - turning.y,
@@ -81,7 +81,7 @@ struct GrainStep {
     sums.torque = {sums.torque.x + select(touching, torque.x * share, zero),
                    sums.torque.y + select(touching, torque.y * share, zero),
                    sums.torque.z + select(touching, torque.z * share, zero)};
-    sums.overlap = max(sums.overlap, select(touching, overlap / (R(4.0f) * g.radius), zero));
+    sums.overlap = max(sums.overlap, select(touching, overlap * inverse_reach, zero));
     if constexpr (Rolling) {
       const Vec3<R> t = rolling(own, v.contacts.rolling[index], g, c,
                                 Neighbours<R, decltype(touching)>{touching, radius_j, mass_j, spin}, lanes);
@@ -190,6 +190,11 @@ struct GrainStep {
                       static_cast<float>(fraction_difference(next.z, start.z)) * v.unit.metres.z};
     const float speed2 = dot(velocity, velocity) + dot(surface, surface);
     return {{dot(moved, moved), dot(velocity, velocity), overlap, speed2 < 1.0e12f ? 0.0f : 1.0f}};
+  }
+
+  // Asks for the records that grain i will gather (host only: a device hides the wait by other warps).
+  void prefetch(Index i) const {
+    for (const Index j : v.contacts.rows[i].neighbour) __builtin_prefetch(v.now + j);
   }
 
   template <class Lanes>

@@ -46,6 +46,7 @@ class Array {
     std::swap(data_, other.data_);
     std::swap(size_, other.size_);
     std::swap(capacity_, other.capacity_);
+    std::swap(grown_, other.grown_);
   }
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
@@ -58,7 +59,8 @@ class Array {
       detail::release(exec_, data_, capacity_ * sizeof(T));
       data_ = nullptr;
       capacity_ = 0;
-      const std::size_t wanted = size + size / 8;
+      const std::size_t wanted = grown_ ? size + size / 16 : size;  // a set that never grows pays for no more
+      grown_ = true;
       data_ = static_cast<T*>(detail::allocate(exec_, wanted * sizeof(T)));
       capacity_ = wanted;
     }
@@ -86,6 +88,7 @@ class Array {
   Exec exec_{};
   T* data_ = nullptr;
   std::size_t size_ = 0, capacity_ = 0;
+  bool grown_ = false;
 };
 
 }  // namespace gdesp::exec

@@ -41,5 +41,10 @@ std::vector<DeviceInfo> cuda_devices();
 Cuda take_cuda_device(int number);
 /// Sets the number of threads of the OpenMP back end (0: all cores) and returns it.
 int set_threads(int threads);
+/// Threads that wait for each other at the end of a loop spin for some 10 ms by default, which on a busy machine makes
+/// two threads ten times slower than one; a tenth of a millisecond serves as well. The OpenMP runtime reads this once,
+/// when a program starts: so the program (argv of main, as it came) starts again, unless the user has chosen
+/// (GOMP_SPINCOUNT, OMP_WAIT_POLICY).
+void wait_briefly(char** argv);
 
 }  // namespace gdesp::exec

@@ -19,7 +19,11 @@ inline Int8::Vector operator==(const Int8& a, const Int8& b) { return a.v == b.v
 /// Eight floats side by side.
 struct Float8 {
   typedef float Vector __attribute__((vector_size(32)));
+#if defined(__AVX512VL__)
+  struct Mask { __mmask8 bits; };  // a bit a lane
+#else
   typedef std::int32_t Mask __attribute__((vector_size(32)));
+#endif
   Vector v;
 
   Float8() = default;
@@ -35,11 +39,28 @@ inline Float8 operator-(const Float8& a, const Float8& b) { return a.v - b.v; }
 inline Float8 operator*(const Float8& a, const Float8& b) { return a.v * b.v; }
 inline Float8 operator/(const Float8& a, const Float8& b) { return a.v / b.v; }
 inline Float8 operator-(const Float8& a) { return -a.v; }
+#if defined(__AVX512VL__)
+inline __m256 packed(const Float8& a) { return reinterpret_cast<__m256>(a.v); }
+inline Float8::Mask operator<(const Float8& a, const Float8& b) {
+  return {_mm256_cmp_ps_mask(packed(a), packed(b), _CMP_LT_OQ)};
+}
+inline Float8::Mask operator>(const Float8& a, const Float8& b) { return b < a; }
+inline Float8 select(const Float8::Mask& c, const Float8& a, const Float8& b) {
+  return Float8(reinterpret_cast<Float8::Vector>(_mm256_mask_mov_ps(packed(b), c.bits, packed(a))));
+}
+#else
 inline Float8::Mask operator<(const Float8& a, const Float8& b) { return a.v < b.v; }
 inline Float8::Mask operator>(const Float8& a, const Float8& b) { return a.v > b.v; }
+inline Float8 select(const Float8::Mask& c, const Float8& a, const Float8& b) { return c ? a.v : b.v; }
+#endif
+#if defined(__AVX__)
+// One instruction each, which the compiler does not see in a comparison and a choice.
+inline Float8 max(const Float8& a, const Float8& b) { return Float8(__builtin_ia32_maxps256(a.v, b.v)); }
+inline Float8 min(const Float8& a, const Float8& b) { return Float8(__builtin_ia32_minps256(a.v, b.v)); }
+#else
 inline Float8 max(const Float8& a, const Float8& b) { return a.v > b.v ? a.v : b.v; }
 inline Float8 min(const Float8& a, const Float8& b) { return a.v < b.v ? a.v : b.v; }
-inline Float8 select(const Float8::Mask& c, const Float8& a, const Float8& b) { return c ? a.v : b.v; }
+#endif
 inline Float8 sqrt(const Float8& a) {
 #if defined(__AVX__)
   return Float8(__builtin_ia32_sqrtps256(a.v));
@@ -49,6 +70,16 @@ inline Float8 sqrt(const Float8& a) {
   return r;
 #endif
 }
+
+#if defined(__AVX512VL__)
+inline Float8 inverse_sqrt(const Float8& a) {
+  const __m256 guess = _mm256_rsqrt14_ps(packed(a)), half = _mm256_mul_ps(guess, _mm256_set1_ps(0.5f));
+  const __m256 error = _mm256_fnmadd_ps(_mm256_mul_ps(packed(a), guess), guess, _mm256_set1_ps(1.0f));
+  return Float8(reinterpret_cast<Float8::Vector>(_mm256_fmadd_ps(error, half, guess)));
+}
+#else
+inline Float8 inverse_sqrt(const Float8& a) { return Float8(1.0f) / sqrt(a); }
+#endif
 
 /// The eight lanes of one row of contacts; the same interface as DeviceRowLanes.
 struct HostRowLanes {
@@ -112,9 +143,13 @@ struct HostRowLanes {
     return max(max(q[0], q[2]), max(q[1], q[3]));
   }
   static bool any(const Mask& m) {
+#if defined(__AVX512VL__)
+    return m.bits != 0;
+#else
     long long words[4];
     std::memcpy(words, &m, sizeof(words));
     return ((words[0] | words[1]) | (words[2] | words[3])) != 0;
+#endif
   }
   /// True in the lane that acts alone for its row.
   static constexpr bool leader() { return true; }

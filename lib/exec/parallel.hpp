@@ -23,6 +23,8 @@ namespace gdesp::exec {
 namespace detail {
 // Below these counts one thread is faster than waking the others.
 inline constexpr Index small_loop = 4096, small_pass = 256;
+// Rows between the one whose neighbours are asked for and the one that is worked on.
+inline constexpr Index rows_ahead = 4;
 }  // namespace detail
 
 /// body(i) for i in [0, count).
@@ -52,6 +54,9 @@ void row_pass(const OpenMP&, const char* name, Index rows, const Body& body, Lar
     Largest mine;
 #pragma omp for schedule(dynamic, 128) nowait
     for (Index r = 0; r < rows; ++r) {
+      if constexpr (requires { body.prefetch(r); }) {
+        if (r + detail::rows_ahead < rows) body.prefetch(r + detail::rows_ahead);
+      }
       const Largest one = body(r, HostRowLanes{});
       for (int k = 0; k < 4; ++k) mine.value[k] = max(mine.value[k], one.value[k]);
     }

@@ -30,10 +30,11 @@ struct BuildList {
   std::uint32_t* used;
   std::uint32_t* begin;
   std::uint32_t* count;
+  std::uint32_t* total;
   std::uint32_t* entries;
   const Index* chosen;  // null: all
 
-  // accept(entry) for each j cluster with a pair inside the cutoff.
+  // accept(entry, hit) for each j cluster that may have a pair inside the cutoff; hit: it has one.
   template <class Lanes, class Accept>
   GDESP_HD void for_each_accepted(Index c, const Lanes& lanes, const Accept& accept) const {
     using Real = typename Lanes::Real;
@@ -52,16 +53,18 @@ struct BuildList {
       for (Index j = first; j <= last; ++j) {
         const float* rj = record_j + record_offset(j);
         const Real dx = xs - lanes.load_j(rj), dy = ys - lanes.load_j(rj + 4), dz = zs - lanes.load_j(rj + 8);
-        if (lanes.any(dx * dx + dy * dy + dz * dz < cutoff2)) {
-          accept((static_cast<std::uint32_t>(j) << ClusterListView::code_bits) | code);
-        }
+        accept((static_cast<std::uint32_t>(j) << ClusterListView::code_bits) | code,
+               lanes.any(dx * dx + dy * dy + dz * dz < cutoff2));
       }
     });
   }
 
+  GDESP_HD static bool changes_tile(std::uint32_t entry) {
+    return (entry & ((1u << ClusterListView::code_bits) - 1)) != ClusterListView::same_tile;
+  }
   GDESP_HD void write_header(Index c, std::uint32_t first, std::uint32_t n, bool crosses) const {
     begin[c] = first;
-    count[c] = n | (crosses ? ClusterListView::crosses_bit : 0u);
+    total[c] = count[c] = n | (crosses ? ClusterListView::crosses_bit : 0u);
   }
 
   template <class Lanes>
@@ -73,29 +76,31 @@ struct BuildList {
     // Two walks: count, take the space, fill.
     std::uint32_t n = 0;
     bool crosses = false;
-    for_each_accepted(c, lanes, [&](std::uint32_t entry) {
+    for_each_accepted(c, lanes, [&](std::uint32_t entry, bool hit) {
+      if (!hit) return;
       ++n;
-      crosses = crosses || (entry & ((1u << ClusterListView::code_bits) - 1)) != ClusterListView::same_tile;
+      crosses = crosses || changes_tile(entry);
     });
     std::uint32_t next = lanes.allocate(used, n);
     const bool fits = next + n <= capacity;
     if (lanes.leader()) write_header(c, next, fits ? n : 0u, crosses);
     if (!fits) return;
-    for_each_accepted(c, lanes, [&](std::uint32_t entry) {
-      if (lanes.leader()) entries[next] = entry;
-      ++next;
+    for_each_accepted(c, lanes, [&](std::uint32_t entry, bool hit) {
+      if (hit && lanes.leader()) entries[next] = entry;
+      if (hit) ++next;
     });
 #else
-    // One walk into a buffer; spilled to a second walk when a list is longer than any sane one.
+    // One walk into a buffer; a second walk when a list is longer than any sane one. Without branches on hits, which
+    // no predictor foresees: every entry is written, and the next one over it when it was no hit.
     constexpr std::uint32_t buffer_size = 2048;
-    std::uint32_t buffer[buffer_size];
+    std::uint32_t buffer[buffer_size + 1];
     std::uint32_t n = 0;
-    bool crosses = false;
-    for_each_accepted(c, lanes, [&](std::uint32_t entry) {
-      if (n < buffer_size) buffer[n] = entry;
-      ++n;
-      crosses = crosses || (entry & ((1u << ClusterListView::code_bits) - 1)) != ClusterListView::same_tile;
+    for_each_accepted(c, lanes, [&](std::uint32_t entry, bool hit) {
+      buffer[n < buffer_size ? n : buffer_size] = entry;
+      n += hit ? 1u : 0u;
     });
+    bool crosses = n > buffer_size;
+    for (std::uint32_t k = 0; k < n && k < buffer_size; ++k) crosses = crosses | changes_tile(buffer[k]);
     std::uint32_t next = lanes.allocate(used, n);
     const bool fits = next + n <= capacity;
     write_header(c, next, fits ? n : 0u, crosses);
@@ -103,7 +108,9 @@ struct BuildList {
     if (n <= buffer_size) {
       for (std::uint32_t k = 0; k < n; ++k) entries[next + k] = buffer[k];
     } else {
-      for_each_accepted(c, lanes, [&](std::uint32_t entry) { entries[next++] = entry; });
+      for_each_accepted(c, lanes, [&](std::uint32_t entry, bool hit) {
+        if (hit) entries[next++] = entry;
+      });
     }
 #endif
   }
@@ -118,9 +125,11 @@ void ClusterList<Exec>::build(const CellGridView& i, const float* record_i, cons
   const auto n = static_cast<std::size_t>(i.clusters);
   begin_.resize_discard(n);
   count_.resize_discard(n);
+  total_.resize_discard(n);
   used_.resize_discard(1);
   if (i.clusters == 0 || j.clusters == 0) {
     count_.fill_bytes(0);
+    total_.fill_bytes(0);
     begin_.fill_bytes(0);
     used_entries_ = 0;
     return;
@@ -128,17 +137,26 @@ void ClusterList<Exec>::build(const CellGridView& i, const float* record_i, cons
   if (j.clusters >= (1 << (32 - ClusterListView::code_bits))) {
     throw Error(ErrorKind::resource, "too many particles in one set: at most 536 million");
   }
-  if (entries_.empty()) entries_.resize_discard(40 * n + 1024);
+  // A set with itself: about what 1.3 spacings of h take. Two sets meet at a border only; else this grows once.
+  if (entries_.empty()) entries_.resize_discard((i.cell_begin == j.cell_begin ? 40 : 4) * n + 1024);
   for (;;) {
     used_.fill_bytes(0);
-    if (chosen.list) count_.fill_bytes(0);
+    if (chosen.list) {
+      count_.fill_bytes(0);
+      total_.fill_bytes(0);
+    }
     exec::pair_pass(exec_, "list::build", chosen.list ? chosen.count : i.clusters,
                     BuildList{i, j, record_i, record_j, cutoff, static_cast<std::uint32_t>(entries_.size()),
-                              used_.data(), begin_.data(), count_.data(), entries_.data(), chosen.list});
+                              used_.data(), begin_.data(), count_.data(), total_.data(), entries_.data(), chosen.list});
     used_entries_ = used_.read(0);
     if (used_entries_ <= entries_.size()) return;
     entries_.resize_discard(used_entries_ + used_entries_ / 16);
   }
+}
+
+template <class Exec>
+ClusterTrim ClusterList<Exec>::trim(const float* record_i, const float* record_j, float cutoff) {
+  return {view(), record_i, record_j, cutoff * cutoff, total_.data(), count_.data(), entries_.data()};
 }
 
 template <class Exec>

@@ -10,6 +10,25 @@ namespace {
 
 constexpr int x_bits = 10;  // order along a pencil: 1/1024 of a tile, a sixteenth of a spacing
 
+// Pencils follow each other in Z order (bits of y and z interleaved), so that the pencils around a pencil are near it in
+// memory too, whatever the size of a cache (docs/decisions/0012).
+GDESP_HD inline std::uint32_t spread_bits(std::uint32_t n) {  // sixteen bits to every second place
+  n = (n | (n << 8)) & 0x00ff00ffu;
+  n = (n | (n << 4)) & 0x0f0f0f0fu;
+  n = (n | (n << 2)) & 0x33333333u;
+  return (n | (n << 1)) & 0x55555555u;
+}
+GDESP_HD inline std::int32_t gathered_bits(std::uint32_t n) {
+  n &= 0x55555555u;
+  n = (n | (n >> 1)) & 0x33333333u;
+  n = (n | (n >> 2)) & 0x0f0f0f0fu;
+  n = (n | (n >> 4)) & 0x00ff00ffu;
+  return static_cast<std::int32_t>((n | (n >> 8)) & 0x0000ffffu);
+}
+GDESP_HD inline std::uint32_t pencil_number(std::int32_t cy, std::int32_t cz) {
+  return spread_bits(static_cast<std::uint32_t>(cy)) | (spread_bits(static_cast<std::uint32_t>(cz)) << 1);
+}
+
 // A particle's place among the cells, and its sort key.
 struct KeyMaker {
   Domain domain;
@@ -22,7 +41,7 @@ struct KeyMaker {
                                       static_cast<std::uint64_t>(count)) >> Domain::fraction_bits);
   }
   GDESP_HD std::uint64_t key(const FixedPosition& p) const {
-    const std::uint64_t pencil = static_cast<std::uint64_t>(cell(p.z, cells.z)) * cells.y + cell(p.y, cells.y);
+    const std::uint64_t pencil = pencil_number(cell(p.y, cells.y), cell(p.z, cells.z));
     const std::uint64_t x = Domain::fraction_of(p.x) >> (Domain::fraction_bits - x_bits);
     return (((static_cast<std::uint64_t>(domain.tile_number(p)) << pencil_bits) | pencil) << x_bits) | x;
   }
@@ -135,9 +154,9 @@ struct PlaceParticles {
       cluster_tile[slot / exec::cluster_size] = maker.domain.tile_coordinates(static_cast<std::int32_t>(tile));
     }
 
-    const std::uint64_t pencil = (keys[k] >> x_bits) & ((std::uint64_t{1} << maker.pencil_bits) - 1);
-    Index* row = cell_begin + (static_cast<std::int64_t>(tile_slot[tile]) * maker.cells.z * maker.cells.y +
-                               static_cast<std::int64_t>(pencil)) * (maker.cells.x + 1);
+    const auto pencil = static_cast<std::uint32_t>((keys[k] >> x_bits) & ((std::uint64_t{1} << maker.pencil_bits) - 1));
+    const std::int64_t plane = static_cast<std::int64_t>(tile_slot[tile]) * maker.cells.z + gathered_bits(pencil >> 1);
+    Index* row = cell_begin + (plane * maker.cells.y + gathered_bits(pencil)) * (maker.cells.x + 1);
     const std::int32_t cx = cell_x(k);
     for (std::int32_t c = head[k] ? 0 : cell_x(k - 1) + 1; c <= cx; ++c) row[c] = slot;
     if (k + 1 == particles || head[k + 1]) {
@@ -145,6 +164,32 @@ struct PlaceParticles {
       for (std::int32_t c = cx + 1; c <= maker.cells.x; ++c) row[c] = end;
       for (Index s = slot + 1; s < end; ++s) source[s] = -1;
     }
+  }
+};
+
+// Which of the 8 x 8 x 8 blocks of a tile hold a particle: one word for each layer of blocks.
+struct MarkBlocks {
+  CellGridView grid;
+  std::uint64_t* block;
+
+  GDESP_HD std::uint64_t blocks_of(const Index* row) const {
+    std::uint64_t bits = 0;
+    const std::int32_t step = 1 << grid.block_shift.x;
+    for (std::int32_t first = 0, b = 0; first < grid.cells.x; first += step, ++b) {
+      const std::int32_t end = first + step < grid.cells.x ? first + step : grid.cells.x;
+      if (row[end] > row[first]) bits |= std::uint64_t{1} << b;
+    }
+    return bits;
+  }
+  GDESP_HD void operator()(Index i) const {
+    const std::int32_t first = (i & 7) << grid.block_shift.z, beyond = first + (1 << grid.block_shift.z);
+    std::uint64_t bits = 0;
+    for (std::int32_t cz = first; cz < beyond && cz < grid.cells.z; ++cz) {
+      for (std::int32_t cy = 0; cy < grid.cells.y; ++cy) {
+        bits |= blocks_of(grid.pencil(i >> 3, cy, cz)) << (8 * (cy >> grid.block_shift.y));
+      }
+    }
+    block[i] = bits;
   }
 };
 
@@ -160,17 +205,24 @@ template <class Exec>
 ClusterSet<Exec>::ClusterSet(const Exec& exec, const Domain& domain, double cell_size)
     : exec_(exec), domain_(domain), keys_(exec), keys_scratch_(exec), order_(exec), order_scratch_(exec), head_(exec),
       ordinal_(exec), pencil_first_(exec), padded_count_(exec), padded_begin_(exec), tile_head_(exec),
-      tile_ordinal_(exec), source_(exec), tile_slot_(exec), cell_begin_(exec), cluster_tile_(exec) {
+      tile_ordinal_(exec), source_(exec), tile_slot_(exec), cell_begin_(exec), block_(exec), cluster_tile_(exec) {
   for (int axis = 0; axis < 3; ++axis) {
     cells_[axis] = std::max(1, static_cast<std::int32_t>(domain.tile_size[axis] / cell_size + 1e-6));
   }
   if (domain.dimensions == 2) cells_.y = 1;
+  // Finer along the pencil, where cells cost nothing; a power of two, so that their borders are borders of sort keys.
+  const std::int32_t fine = 2 * cells_.x;
+  cells_.x = 1;
+  while (cells_.x < fine && cells_.x < (1 << x_bits)) cells_.x *= 2;
+  for (int axis = 0; axis < 3; ++axis) {
+    while ((cells_[axis] - 1) >> block_shift_[axis] > 7) ++block_shift_[axis];
+  }
   const std::int64_t tiles = static_cast<std::int64_t>(domain.tiles.x) * domain.tiles.y * domain.tiles.z;
   if (tiles > (std::int64_t{1} << 28)) {
     throw Error(ErrorKind::input, "the domain is too large for its resolution: " + std::to_string(tiles) +
                                       " blocks of 64 spacings, at most 268435456; give a smaller domain or a larger dp");
   }
-  pencil_bits_ = bits_for(static_cast<std::uint64_t>(cells_.y) * cells_.z - 1);
+  pencil_bits_ = bits_for(pencil_number(cells_.y - 1, 0) | pencil_number(0, cells_.z - 1));
   tile_bits_ = bits_for(static_cast<std::uint64_t>(tiles));
   tile_slot_.resize_discard(static_cast<std::size_t>(tiles));
   tile_slot_.fill_bytes(0xff);
@@ -225,6 +277,8 @@ void ClusterSet<Exec>::build(const Array<FixedPosition, Exec>& position, const A
                      PlaceParticles{maker, keys_.data(), order_.data(), position.data(), head_.data(), ordinal_.data(),
                                     pencil_first_.data(), padded_begin_.data(), tile_slot_.data(), particles_,
                                     tile_shift, source_.data(), cell_begin_.data(), cluster_tile_.data()});
+  block_.resize_discard(8 * static_cast<std::size_t>(used_tiles));
+  exec::parallel_for(exec_, "sort::blocks", 8 * used_tiles, MarkBlocks{view(), block_.data()});
 }
 
 template <class Exec>
@@ -237,6 +291,8 @@ CellGridView ClusterSet<Exec>::view() const {
   }
   view.tile_slot = tile_slot_.data();
   view.cell_begin = cell_begin_.data();
+  view.block = block_.data();
+  view.block_shift = block_shift_;
   view.cluster_tile = cluster_tile_.data();
   view.clusters = clusters();
   return view;

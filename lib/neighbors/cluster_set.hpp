@@ -23,6 +23,8 @@ struct CellGridView {
   Vec3f inverse_cell_size;           ///< 1/m
   const Index* tile_slot;            ///< per dense tile number: storage slot, -1 when the tile holds no particle
   const Index* cell_begin;           ///< [storage slot][pencil = cz * cells.y + cy][cell x 0..cells.x]: first slot
+  const std::uint64_t* block;        ///< [storage slot][z block 0..7]: bit 8 y + x of blocks that hold a particle
+  Vec3<std::int32_t> block_shift;    ///< cell >> block_shift is its block, 0..7, along each axis
   const Vec3<std::int32_t>* cluster_tile;  ///< per cluster: tile coordinates
   Index clusters;
 
@@ -38,7 +40,8 @@ template <class Exec>
 class ClusterSet {
  public:
   ClusterSet() = default;
-  /// Cells of about `cell_size` metres (the largest whole share of a tile that is at least that).
+  /// Cells of about `cell_size` metres in y and z (the largest whole share of a tile that is at least that), and of a
+  /// half to a quarter of it in x.
   ClusterSet(const Exec& exec, const Domain& domain, double cell_size);
 
   /// Sorts. position[old], id[old] for old in [0, old_slots): padding (id = no_particle) and particles outside
@@ -55,18 +58,19 @@ class ClusterSet {
 
   /// The members that a checkpoint keeps (exec/state_archive.hpp).
   template <class Archive>
-  void archive(Archive& a) { a(slots_, particles_, lost_, source_, tile_slot_, cell_begin_, cluster_tile_); }
+  void archive(Archive& a) { a(slots_, particles_, lost_, source_, tile_slot_, cell_begin_, block_, cluster_tile_); }
 
  private:
   Exec exec_{};
   Domain domain_;
-  Vec3<std::int32_t> cells_{1, 1, 1};
+  Vec3<std::int32_t> cells_{1, 1, 1}, block_shift_{0, 0, 0};
   int pencil_bits_ = 0, tile_bits_ = 0;
   Index slots_ = 0, particles_ = 0, lost_ = 0;
   Array<std::uint64_t, Exec> keys_, keys_scratch_;
   Array<Index, Exec> order_, order_scratch_, head_, ordinal_, pencil_first_, padded_count_, padded_begin_;
   Array<Index, Exec> tile_head_, tile_ordinal_;
   Array<Index, Exec> source_, tile_slot_, cell_begin_;
+  Array<std::uint64_t, Exec> block_;
   Array<Vec3<std::int32_t>, Exec> cluster_tile_;
 };
 

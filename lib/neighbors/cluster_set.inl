@@ -17,6 +17,19 @@ GDESP_HD inline CellRange cell_range(float low, float high, float inverse_cell, 
   return range;
 }
 
+// True when a block of tile `storage` that overlaps the cells holds a particle.
+GDESP_HD inline bool any_in_blocks(const CellGridView& grid, Index storage, const CellRange& x, const CellRange& y,
+                                   const CellRange& z) {
+  const int bx = x.first >> grid.block_shift.x, ex = x.last >> grid.block_shift.x;
+  const int by = y.first >> grid.block_shift.y, ey = y.last >> grid.block_shift.y;
+  const int bz = z.first >> grid.block_shift.z, ez = z.last >> grid.block_shift.z;
+  const std::uint64_t columns = (std::uint64_t{2} << ex) - (std::uint64_t{1} << bx);
+  std::uint64_t wanted = 0, found = 0;
+  for (int b = by; b <= ey; ++b) wanted |= columns << (8 * b);
+  for (int b = bz; b <= ez; ++b) found |= grid.block[8 * static_cast<std::int64_t>(storage) + b];
+  return (wanted & found) != 0;
+}
+
 // Dense tile coordinate after the offset; -1 when there is none. Wraps along periodic axes.
 GDESP_HD inline std::int32_t neighbour_tile(std::int32_t t, int o, std::int32_t tiles, bool periodic) {
   t += o;
@@ -63,12 +76,14 @@ GDESP_HD inline void for_each_candidate(const CellGridView& grid, const Vec3<std
       if (ty < 0) continue;
       for (int ox = -1; ox <= 1; ++ox) {
         const float shift_x = static_cast<float>(ox) * size.x;
-        if (low.x - reach - shift_x > size.x || high.x + reach - shift_x < 0.0f) continue;
+        const auto all_x = detail::cell_range(low.x - reach - shift_x, high.x + reach - shift_x,
+                                              grid.inverse_cell_size.x, grid.cells.x);
+        if (all_x.first > all_x.last) continue;
         const std::int32_t tx = detail::neighbour_tile(tile.x, ox, domain.tiles.x, domain.periodic[0]);
         if (tx < 0) continue;
         const std::int64_t number = (static_cast<std::int64_t>(tz) * domain.tiles.y + ty) * domain.tiles.x + tx;
         const Index storage = grid.tile_slot[number];
-        if (storage < 0) continue;
+        if (storage < 0 || !detail::any_in_blocks(grid, storage, all_x, ry, rz)) continue;
         for (std::int32_t cz = rz.first; cz <= rz.last; ++cz) {
           const float dz = detail::cell_distance(low.z, high.z, cz, cell.z, shift_z);
           for (std::int32_t cy = ry.first; cy <= ry.last; ++cy) {

@@ -76,10 +76,10 @@ void CoupledSimulation<Exec>::make_room_for(double dt) {
   if (fluid_.may_fall_asleep(time_)) fluid_.start_sleeping(time_, movers());
   const bool stale = fluid_.lists_are_stale(move);
   if (stale) {
-    fluid_.rebuild(move, time_, movers());
+    fluid_.rebuild(std::sqrt(static_cast<double>(extremes_.speed2)) * dt, time_, movers(), move);
     ++rebuilds_;
   }
-  fluid_.note_move(move);
+  largest_move_ = move;
   if (coupling_) refresh_coupling(move + 1.2 * grain_speed_ * dt, stale);
 }
 
@@ -103,6 +103,7 @@ template <class Exec>
 void CoupledSimulation<Exec>::fluid_split_step(float dt) {
   place_bodies(time_ + 0.5 * static_cast<double>(dt));
   fluid_.half_drift(0.5f * dt, density_lag_ + 0.5f * dt);
+  fluid_.trim_lists(largest_move_);
   porosity_now(0.5 * static_cast<double>(dt));
   if (input_.fluid_parameters.extrapolated_walls) {
     fluid_.extrapolate_walls();
@@ -124,6 +125,7 @@ template <class Exec>
 void CoupledSimulation<Exec>::fluid_verlet_step(float dt) {
   place_bodies(time_ + static_cast<double>(dt));
   fluid_.verlet_predict(dt);
+  fluid_.trim_lists(2.0 * largest_move_);  // the whole step lies behind
   porosity_now(0.5 * static_cast<double>(dt));
   if (input_.fluid_parameters.extrapolated_walls) {
     fluid_.extrapolate_walls();
@@ -137,9 +139,19 @@ void CoupledSimulation<Exec>::fluid_verlet_step(float dt) {
   fluid_.verlet_correct(dt);
 }
 
+// What particles have moved in a step that is done, at most: half a step at the old velocity and half at the new one
+// (split), the whole step at the velocity in its middle (verlet). make_room_for() had to guess the new one.
+template <class Exec>
+void CoupledSimulation<Exec>::note_move(double dt, double old_speed) {
+  const double speed = std::sqrt(static_cast<double>(extremes_.speed2));
+  const double kick = dt * std::sqrt(static_cast<double>(extremes_.acceleration2));
+  const double moved = input_.time.scheme == TimeScheme::split ? 0.5 * dt * (old_speed + speed) : dt * (speed + kick);
+  fluid_.note_move(input_.bodies.empty() ? moved : std::max(moved, largest_move_));
+}
+
 template <class Exec>
 void CoupledSimulation<Exec>::step(double end) {
-  const double dt = choose_step(end);
+  const double dt = choose_step(end), old_speed = std::sqrt(static_cast<double>(extremes_.speed2));
   if (fluid_.particles() == 0) {
     place_bodies(time_ + dt);
     advance_grains(dt);
@@ -157,6 +169,7 @@ void CoupledSimulation<Exec>::step(double end) {
                                           " particles have no finite state at t = " + std::to_string(time_ + dt) +
                                           " s, step " + std::to_string(step_ + 1));
   }
+  note_move(dt, old_speed);
   time_ = (limited_by_ == std::string("output") && end - time_ <= dt) ? end : time_ + dt;
   last_dt_ = dt;
   ++step_;

@@ -35,6 +35,7 @@ class CoupledSimulation final : public Simulation {
   void archive(Archive& a);
   double choose_step(double end);
   void make_room_for(double dt);
+  void note_move(double dt, double old_speed);
   void fluid_split_step(float dt);
   void fluid_verlet_step(float dt);
   void place_bodies(double t);
@@ -61,6 +62,7 @@ class CoupledSimulation final : public Simulation {
   std::vector<sph::WallBodyState> body_states_;
   sph::FluidExtremes extremes_;
   double time_ = 0.0, last_dt_ = 0.0;
+  double largest_move_ = 0.0;         ///< m, bound on what a particle moves in this step
   float density_lag_ = 0.0f;          ///< s; half a step that densities are behind (split)
   std::int64_t step_ = 0, rebuilds_ = 0;
   double step_factor_ = 1.0, acoustic_step_ = 0.0;

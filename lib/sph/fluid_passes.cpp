@@ -23,6 +23,8 @@ struct FluidPass {
   const float* wall_friction;
   const float* mass_share;
   float* rate;
+  bool trims;
+  ClusterTrim fluid_trim, wall_trim;
 
   template <class Real>
   struct Particle { Real x, y, z, vx, vy, vz, A; };
@@ -42,6 +44,10 @@ struct FluidPass {
   template <class Lanes>
   GDESP_HD void operator()(Index c, const Lanes& lanes) const {
     using Real = typename Lanes::Real;
+    if (WithMomentum && trims) {
+      fluid_trim(c, lanes);
+      wall_trim(c, lanes);
+    }
     const float* ri = fluid + record_offset(c);
     const Particle<Real> i{lanes.load_i(ri + row_x),  lanes.load_i(ri + row_y),  lanes.load_i(ri + row_z),
                            lanes.load_i(ri + row_vx), lanes.load_i(ri + row_vy), lanes.load_i(ri + row_vz),
@@ -230,12 +236,16 @@ template <class Exec>
 template <bool M, bool C, Viscosity K>
 void FluidSystem<Exec>::run_fluid_pass_kind(const char* name) {
   const FluidParameters& p = parameters_;
+  const auto cutoff = static_cast<float>(2.0 * p.h + trim_skin_);
+  const bool trims = M && trims_next_;
+  if (trims) trims_next_ = false;
   exec::pair_pass(exec_, name, awake_clusters(), chosen_clusters(awake_list(),
                   FluidPass<M, C, K>{pair_law(), static_cast<float>(p.sound_speed * p.sound_speed),
                                      static_cast<float>(2.0 * p.density_diffusion * p.h * p.sound_speed),
                                      fluid_fluid_.view(), fluid_wall_.view(), record_.data(), wall_record_.data(),
-                                     wall_friction_.data(), mass_share_.data(),
-                                     rate_.data()}));
+                                     wall_friction_.data(), mass_share_.data(), rate_.data(), trims,
+                                     fluid_fluid_.trim(record_.data(), record_.data(), cutoff),
+                                     fluid_wall_.trim(record_.data(), wall_record_.data(), cutoff)}));
 }
 
 template <class Exec>

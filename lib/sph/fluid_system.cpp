@@ -234,13 +234,13 @@ void FluidSystem<Exec>::sort_walls() {
 }
 
 template <class Exec>
-void FluidSystem<Exec>::rebuild(double move_per_step, double t, const Movers& movers) {
-  // A rebuild costs about 1.5 passes of each kind, the skin 0.9 skin/h of every pass: the sum is least at
-  // sqrt(3.3 move h) (docs/decisions/0003).
+void FluidSystem<Exec>::rebuild(double move_per_step, double t, const Movers& movers, double next_move) {
+  // A rebuild costs about a pass of each kind every s/(2 m) steps, the skin 0.4 s/h of a pass every step, when lists are
+  // trimmed: the sum is least near s = sqrt(5 m h) (docs/decisions/0011).
   skin_ = parameters_.skin > 0.0 ? parameters_.skin
-                                 : std::clamp(std::sqrt(3.3 * move_per_step * parameters_.h), 0.06 * parameters_.h,
-                                              0.6 * parameters_.h);
-  skin_ = std::max(skin_, 2.5 * move_per_step);
+                                 : std::clamp(std::sqrt(5.0 * move_per_step * parameters_.h), 0.06 * parameters_.h,
+                                              0.8 * parameters_.h);
+  skin_ = std::max(skin_, 2.1 * next_move);
   sort_fluid();
   pack_all();
   if (walls_move_) sort_walls();
@@ -257,6 +257,22 @@ void FluidSystem<Exec>::build_lists() {
   fluid_fluid_.build(set_.view(), record_.data(), set_.view(), record_.data(), cutoff, water);
   fluid_wall_.build(set_.view(), record_.data(), wall_set_.view(), wall_record_.data(), cutoff, water);
   wall_fluid_.build(wall_set_.view(), wall_record_.data(), set_.view(), record_.data(), cutoff, walls);
+  trimmed_ = trim_skin_ = 0.0;
+  trims_next_ = false;
+}
+
+template <class Exec>
+void FluidSystem<Exec>::trim_lists(double move) {
+  trimmed_ += 0.5 * move;
+  if (trim_skin_ == 0.0 || trimmed_ + 0.5 * move > 0.5 * trim_skin_) {
+    // Two passes feel the skin, a trim costs a part of one.
+    const double skin = std::max(std::sqrt(0.2 * move * parameters_.h), 1.01 * move);
+    if (trim_skin_ == 0.0 && skin > 0.6 * skin_) return;  // not worth it
+    trims_next_ = true;
+    trim_skin_ = skin;
+    trimmed_ = 0.0;
+  }
+  trimmed_ += 0.5 * move;
 }
 
 template <class Exec>

@@ -58,6 +58,9 @@ class FluidSystem {
   Index particles() const { return set_.particles(); }
   Index wall_particles() const { return wall_set_.particles(); }
   Index lost() const { return lost_; }
+  std::size_t list_entries() const { return fluid_fluid_.entries(); }   ///< of water with water
+  ClusterListView fluid_list() const { return fluid_fluid_.view(); }
+  FluidPairLaw pair_law() const;                                        ///< coefficients of the pair terms
   const FluidParameters& parameters() const { return parameters_; }
   const ClusterSet<Exec>& set() const { return set_; }
   const ClusterSet<Exec>& wall_set() const { return wall_set_; }
@@ -83,13 +86,17 @@ class FluidSystem {
   void fill_pores(bool first);
 
   // Neighbours.
-  /// Sorts both sets and builds the lists. The skin suits particles that move `move_per_step` metres a step at most.
+  /// Sorts both sets and builds the lists. The skin suits particles that move `move_per_step` metres a step, and serves
+  /// for a first step of at most `next_move`.
   /// Where water may sleep, decides who is awake at time t (s); `movers` wake the water around them.
-  void rebuild(double move_per_step, double t = 0.0, const Movers& movers = {});
+  void rebuild(double move_per_step, double t = 0.0, const Movers& movers = {}, double next_move = 0.0);
+  /// Lets the next momentum or combined pass trim the lists, when that pays, to what the passes of this step need.
+  /// Called in mid-step, records packed, by steps in which no particle moves more than `move` (m) in all.
+  void trim_lists(double move);
   /// True when some particle may have moved more than half the skin since the last rebuild, or sleeping water has not
   /// been looked at for a while.
   bool lists_are_stale(double next_move) const;
-  void note_move(double metres) { moved_ += metres, ++steps_since_rebuild_; }
+  void note_move(double metres) { moved_ += metres, ++steps_since_rebuild_; }   ///< in the step that is done, at most
 
   // Activity (sph/activity.hpp; fluid_activity.cpp).
   /// Once the water has settled, unless it sleeps already.
@@ -130,7 +137,8 @@ class FluidSystem {
   template <class Archive>
   void archive(Archive& a) {
     a(activity_, awake_, near_walls_, sleeps_, steps_since_rebuild_);
-    a(parameters_.sound_speed, coupled_, porous_, moved_, skin_, lost_, walls_move_, set_, wall_set_, fluid_fluid_, fluid_wall_, wall_fluid_);
+    a(parameters_.sound_speed, coupled_, porous_, moved_, skin_, trimmed_, trim_skin_, lost_, walls_move_, set_,
+      wall_set_, fluid_fluid_, fluid_wall_, wall_fluid_);
     a(position_, velocity_, density_, id_, mass_share_, porosity_, external_, record_, rate_);
     a(wall_position_, wall_start_, wall_velocity_, wall_body_, wall_density_, wall_friction_, wall_id_, wall_record_,
       wall_rate_, wall_bodies_, guarded_, wall_normal_, wall_depth_, wall_surface_, near_wall_);
@@ -150,7 +158,6 @@ class FluidSystem {
   Index awake_slots() const { return exec::cluster_size * awake_clusters(); }
   template <bool M, bool C> void run_fluid_pass(const char* name);
   template <bool M, bool C, Viscosity K> void run_fluid_pass_kind(const char* name);
-  FluidPairLaw pair_law() const;
   FluidStateView state_view();
   RecordPacker packer();
 
@@ -159,7 +166,9 @@ class FluidSystem {
   FluidParameters parameters_;
   bool coupled_ = false;
   bool porous_ = false;                         ///< some porosity may differ from 1
-  double moved_ = 0.0, skin_ = 0.0;
+  double moved_ = 0.0, skin_ = 0.0;             ///< m
+  double trimmed_ = 0.0, trim_skin_ = 0.0;      ///< m, moved since lists were trimmed, and their skin then (0: whole)
+  bool trims_next_ = false;                     ///< the next pass of momentum trims
   Index lost_ = 0;
   ClusterSet<Exec> set_, wall_set_;
   ClusterList<Exec> fluid_fluid_, fluid_wall_, wall_fluid_;

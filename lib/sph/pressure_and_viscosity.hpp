@@ -53,6 +53,7 @@ GDESP_HD inline void add_fluid_pair(const FluidPairLaw& law, const Real& rx, con
                                     const Real& B_j, const Real& friction, FluidRates<Real>& rates) {
   using real::max;
   using real::min;
+  using real::reciprocal;
   using real::sqrt;
   const Real r2 = rx * rx + ry * ry + rz * rz;
   const Real t = max(Real(0.0f), Real(1.0f) - sqrt(r2) * Real(law.inverse_support));
@@ -61,7 +62,7 @@ GDESP_HD inline void add_fluid_pair(const FluidPairLaw& law, const Real& rx, con
   if constexpr (WithMomentum) {
     Real sum = A_i + A_j;
     if constexpr (Kind == Viscosity::artificial) {
-      sum -= friction * Real(law.artificial) * min(vr, Real(0.0f)) / (r2 + Real(law.eta2));
+      sum -= friction * Real(law.artificial) * min(vr, Real(0.0f)) * reciprocal(r2 + Real(law.eta2));
     }
     const Real push = G * sum;
     rates.ax += push * rx;

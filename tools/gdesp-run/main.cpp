@@ -1,24 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // gdesp-run: from a case to the frames of its simulation.
-#include <unistd.h>
-
 #include <csignal>
-#include <cstdlib>
 
+#include "exec/backend.hpp"
 #include "explain.hpp"
 #include "options.hpp"
 #include "run_loop.hpp"
 #include "target.hpp"
 
 namespace {
-
-/// Threads that wait for each other at the end of a loop spin for some 10 ms by default, which on a busy machine makes
-/// two threads ten times slower than one; a tenth of a millisecond serves as well. The OpenMP runtime reads this once,
-/// when a program starts: so the program starts again.
-void wait_briefly(char** argv) {
-  if (std::getenv("GOMP_SPINCOUNT") || std::getenv("OMP_WAIT_POLICY")) return;
-  if (::setenv("GOMP_SPINCOUNT", "10000", 1) == 0) ::execv("/proc/self/exe", argv);
-}
 
 int run(const std::vector<std::string>& arguments) {
   auto options = gdesp::tool::parse_options(arguments);
@@ -34,7 +24,7 @@ int run(const std::vector<std::string>& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  wait_briefly(argv);
+  gdesp::exec::wait_briefly(argv);
   std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error with a message
   return gdesp::cli::run_tool("gdesp-run", argc, argv, run);
 }

@@ -48,7 +48,7 @@ everything() { sed -e 's/#.*//' -e 's/ *$//' -e '/^$/d' "$root/scripts/packages.
 library() { PATH=$work/bin:$PATH bash -c ". '$root/scripts/lib.sh'; $1" scripts/trial; }
 
 # ---- help and wrong options
-for name in build test demo format; do
+for name in build test demo format bench; do
   run "$root/scripts/$name" --help
   check "$name --help ends with 0" is "$status" 0
   check "$name --help has a usage line" has "$out" "usage: scripts/$name"

@@ -97,5 +97,43 @@ TEST(Array, counts_its_memory) {
   EXPECT_EQ(allocated_bytes(), before);
 }
 
+TEST(Lanes, roots_and_reciprocals_err_by_a_unit_in_the_last_place) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> exponent(-30.0, 30.0);
+  constexpr double unit = 1.2e-7;
+  for (int k = 0; k < 20'000; ++k) {
+    const auto a = static_cast<float>(std::pow(10.0, exponent(random)));
+    const double x = static_cast<double>(a);
+    const Float16 wide(a);
+    const Float8 row(a);
+    ASSERT_NEAR(static_cast<double>(sqrt(wide).v[k % 16]) / std::sqrt(x), 1.0, unit) << a;
+    ASSERT_NEAR(static_cast<double>(reciprocal(wide).v[k % 16]) * x, 1.0, unit) << a;
+    ASSERT_NEAR(static_cast<double>(sqrt(row).v[k % 8]) / std::sqrt(x), 1.0, unit) << a;
+    ASSERT_NEAR(static_cast<double>(inverse_sqrt(row).v[k % 8]) * std::sqrt(x), 1.0, unit) << a;
+  }
+  EXPECT_EQ(sqrt(Float16(0.0f)).v[3], 0.0f);
+}
+
+TEST(Lanes, choose_and_compare_lane_by_lane) {
+  Float16 a(0.0f), b(7.5f);
+  Float8 c(0.0f), d(3.5f);
+  for (int k = 0; k < 16; ++k) a.v[k] = static_cast<float>(k);
+  for (int k = 0; k < 8; ++k) c.v[k] = static_cast<float>(k);
+  EXPECT_EQ(HostLanes::bits(a < b), 0x00ffu);
+  EXPECT_EQ(HostLanes::bits(a > b), 0xff00u);
+  EXPECT_TRUE(HostLanes::any(a > Float16(14.5f)));
+  EXPECT_FALSE(HostLanes::any(a > Float16(15.5f)));
+  EXPECT_TRUE(HostRowLanes::any(c < d));
+  EXPECT_FALSE(HostRowLanes::any(c < Float8(-1.0f)));
+  const Float16 low = select(a < b, a, b), least = min(a, b), most = max(a, b);
+  const Float8 low_row = select(c < d, c, d);
+  for (int k = 0; k < 16; ++k) {
+    EXPECT_EQ(low.v[k], k < 8 ? static_cast<float>(k) : 7.5f);
+    EXPECT_EQ(least.v[k], low.v[k]);
+    EXPECT_EQ(most.v[k], k < 8 ? 7.5f : static_cast<float>(k));
+  }
+  for (int k = 0; k < 8; ++k) EXPECT_EQ(low_row.v[k], k < 4 ? static_cast<float>(k) : 3.5f);
+}
+
 }  // namespace
 }  // namespace gdesp::exec

@@ -139,6 +139,27 @@ TEST(ClusterList, works_in_the_plane) {
   check({8, 0.2, 8}, closed, 2, 0.3, 0.2, 0.2);
 }
 
+TEST(ClusterList, keeps_every_pair_when_trimmed_and_takes_them_back) {
+  const bool periodic[3] = {true, false, false};
+  const Domain domain = make_domain({0, 0, 0}, {13.1, 1, 2}, 0.1, periodic, 3);
+  const Sorted i = sort_points(domain, random_points(1500, {0, 0, 0}, {13.1, 1, 2}, 1), 0.2);
+  ClusterList<OpenMP> list{OpenMP{}};
+  list.build(i.set.view(), i.record.data(), i.set.view(), i.record.data(), 0.6f);
+  const auto in_use = [&] {
+    std::size_t sum = 0;
+    for (Index c = 0; c < i.set.clusters(); ++c) sum += list.view().count[c] & ~ClusterListView::crosses_bit;
+    return sum;
+  };
+  const std::size_t whole = in_use();
+  for (const double cutoff : {0.3, 0.2, 0.45, 0.6}) {
+    exec::pair_pass(OpenMP{}, "trim", i.set.clusters(),
+                    list.trim(i.record.data(), i.record.data(), static_cast<float>(cutoff)));
+    const double inner = cutoff * (1.0 - 1e-5);
+    EXPECT_EQ(listed_pairs(i, i, list.view(), inner), all_pairs(domain, i, i, inner)) << cutoff;
+    EXPECT_EQ(in_use() < whole, cutoff < 0.55) << cutoff;
+  }
+}
+
 TEST(ClusterSet, leaves_out_particles_outside_and_says_how_many) {
   const bool closed[3] = {false, false, false};
   const Domain domain = make_domain({0, 0, 0}, {6.4, 6.4, 6.4}, 0.1, closed, 3);
