@@ -4,8 +4,6 @@
 A measure.py is called with a run folder, finds surge-analyze on the PATH and prints, tab-separated, a header and
 one row a metric: metric, unit, value, reference, error, band (scripts/validate --help). For standard Python alone.
 """
-import array
-import base64
 import bisect
 import csv
 import json
@@ -15,6 +13,8 @@ import subprocess
 import sys
 import tomllib
 from pathlib import Path
+
+import vtp
 
 REFERENCE = Path(__file__).resolve().parent.parent / "data" / "reference"
 
@@ -81,22 +81,10 @@ def last_log(run):
 
 
 def read_vtp(path):
-    """The arrays of a VTP file of gdesp-run: name -> list of numbers, or of tuples."""
-    kinds = {"Float32": "f", "Float64": "d", "Int32": "i", "UInt32": "I", "Int64": "q", "UInt64": "Q", "UInt8": "B", "Int8": "b"}
-    arrays = {}
-    text = Path(path).read_text()
-    for head, body in re.findall(r"<DataArray ([^>]*)>([^<]*)</DataArray>", text):
-        given = dict(re.findall(r'(\w+)="([^"]*)"', head))
-        if given.get("format") != "binary" or given.get("type") not in kinds:
-            continue
-        numbers = array.array(kinds[given["type"]], base64.b64decode(body.strip())[8:])
-        width = int(given.get("NumberOfComponents", "1"))
-        arrays[given.get("Name", "")] = (numbers.tolist() if width == 1 else
-                                        [tuple(numbers[k:k + width]) for k in range(0, len(numbers), width)])
-    points = re.search(r"<Points>\s*<DataArray [^>]*Name=\"([^\"]*)\"", text)
-    if points:
-        arrays["position"] = arrays[points.group(1)]
-    return arrays
+    """The arrays of a frame: name -> numbers, or triples for position and velocity."""
+    arrays = vtp.read_arrays(path)
+    arrays["position"] = arrays["Points"]
+    return {name: vtp.vectors(values) if name in ("position", "velocity") else values for name, values in arrays.items()}
 
 
 def frames(run, kind="fluid"):

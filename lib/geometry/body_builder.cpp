@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "core/error.hpp"
+#include "geometry/solitary_wave.hpp"
 
 namespace gdesp::geometry {
 namespace {
@@ -63,11 +64,16 @@ PrescribedMotion constant_motion(const Vec3d& velocity, double start, double sto
   return motion;
 }
 
-Body moving_body(const MovingBody& body) {
+Body moving_body(const MovingBody& body, double gravity) {
   Body out;
   out.name = body.name;
   out.kind = BodyKind::prescribed;
-  out.motion = body.motion_csv.empty() ? constant_motion(body.velocity, body.start, body.stop) : read_motion(body.motion_csv);
+  const Wave& wave = body.wave;
+  if (wave.kind == "solitary") {
+    out.motion = solitary_wave_motion(wave.height, wave.depth, gravity, wave.direction * (1.0 / norm(wave.direction)), body.start);
+  } else {
+    out.motion = body.motion_csv.empty() ? constant_motion(body.velocity, body.start, body.stop) : read_motion(body.motion_csv);
+  }
   out.motion.remove_at = body.remove_at;
   return out;
 }

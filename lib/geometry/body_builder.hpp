@@ -16,7 +16,7 @@ PrescribedMotion read_motion(const std::string& path);
 /// Constant velocity from `start` to `stop`.
 PrescribedMotion constant_motion(const Vec3d& velocity, double start, double stop);
 
-Body moving_body(const MovingBody& body);
+Body moving_body(const MovingBody& body, double gravity);
 Body prescribed_slide(const Slide& slide);
 
 /// A free body from its closed mesh and density: mass, centre, inertia. In two dimensions per metre of width.

@@ -11,11 +11,12 @@ namespace {
 
 constexpr double least_depth = 0.05;   // dp: a wall particle is never reported on or above the surface
 
-void add(BoundaryTable& out, const Vec3d& p, const Vec3d& normal, double depth, std::int32_t body) {
+void add(BoundaryTable& out, const Vec3d& p, const Vec3d& normal, double depth, std::int32_t body, bool no_slip) {
   out.position.push_back(p);
   out.normal.push_back(static_cast<Vec3f>(normal));
   out.depth.push_back(static_cast<float>(depth));
   out.body.push_back(body);
+  out.friction.push_back(no_slip ? 1.0f : 0.0f);
 }
 
 /// Coordinates along one axis of a tank: layers before its lower face, points fitted between, layers after its upper face.
@@ -53,7 +54,7 @@ void add_one_tank(const WallPart& tank, const SceneParts& parts, const Lattice& 
         for (int a = 0; a < 3; ++a) inward[a] = p[a] < lo[a] ? lo[a] - p[a] : (p[a] > hi[a] ? hi[a] - p[a] : 0.0);
         const double depth = norm(inward);
         if (depth == 0.0 || inside_other_tank(parts, &tank, p)) continue;
-        add(out, p, inward * (1.0 / depth), depth, 0);
+        add(out, p, inward * (1.0 / depth), depth, 0, tank.no_slip);
       }
     }
   }
@@ -70,7 +71,8 @@ bool in_tank_wall(const SceneParts& parts, const Vec3d& p, double dp) {
   return any;
 }
 
-void add_box_body(const Box& box, std::int32_t number, const Lattice& lattice, BoundaryTable& out) {
+void add_box_body(const SolidPart& body, std::int32_t number, const Lattice& lattice, const bool (&endless)[3], BoundaryTable& out) {
+  const Box& box = *body.box;
   int n[3];
   Vec3d step;
   for (int a = 0; a < 3; ++a) {
@@ -88,7 +90,7 @@ void add_box_body(const Box& box, std::int32_t number, const Lattice& lattice, B
         double depth = 1e300;
         Vec3d normal;
         for (int a = 0; a < 3; ++a) {
-          if (lattice.dimensions == 2 && a == 1) continue;
+          if (endless[a] || (lattice.dimensions == 2 && a == 1)) continue;
           for (int side = -1; side <= 1; side += 2) {
             const double d = side < 0 ? p[a] - box.lower[a] : box.upper[a] - p[a];
             if (d >= depth - 1e-12 * lattice.dp) continue;
@@ -97,7 +99,7 @@ void add_box_body(const Box& box, std::int32_t number, const Lattice& lattice, B
             normal[a] = side;
           }
         }
-        if (depth <= deepest) add(out, p, normal, depth, number);
+        if (depth <= deepest) add(out, p, normal, depth, number, body.no_slip);
       }
     }
   }
@@ -117,12 +119,13 @@ void add_band_layers(const std::vector<BandPoint>& band, const SceneParts& parts
     const bool tank_face = b.material >= 2 && parts.walls[static_cast<std::size_t>(b.material) - 2].kind == WallPart::Kind::tank;
     const Vec3d p = lattice.point(b.at);
     if (tank_face || in_tank_wall(parts, p, lattice.dp)) continue;
-    add(out, p, static_cast<Vec3d>(b.normal), std::max<double>(-b.distance, least_depth * lattice.dp), 0);
+    const bool no_slip = b.material >= 2 ? parts.walls[static_cast<std::size_t>(b.material) - 2].no_slip : parts.terrain_no_slip;
+    add(out, p, static_cast<Vec3d>(b.normal), std::max<double>(-b.distance, least_depth * lattice.dp), 0, no_slip);
   }
 }
 
-void add_body_layers(const SolidPart& body, std::int32_t number, const Lattice& lattice, BoundaryTable& out) {
-  if (body.box) return add_box_body(*body.box, number, lattice, out);
+void add_body_layers(const SolidPart& body, std::int32_t number, const Lattice& lattice, const bool (&endless)[3], BoundaryTable& out) {
+  if (body.box) return add_box_body(body, number, lattice, endless, out);
   Box box = bounds(body.mesh);
   const LatticeColumns columns = lattice_columns(lattice, box);
   const ColumnIntervals solid = solid_intervals(body.mesh, columns.grid);
@@ -139,7 +142,7 @@ void add_body_layers(const SolidPart& body, std::int32_t number, const Lattice& 
   std::size_t added = 0;
   for (const auto& b : signed_distance_band(surface, request, "", {})) {
     if (b.distance > 0.0f) continue;
-    add(out, lattice.point(b.at), static_cast<Vec3d>(b.normal), std::max<double>(-b.distance, least_depth * lattice.dp), number);
+    add(out, lattice.point(b.at), static_cast<Vec3d>(b.normal), std::max<double>(-b.distance, least_depth * lattice.dp), number, body.no_slip);
     ++added;
   }
   if (added == 0) throw Error(ErrorKind::input, body.name + " is thinner than resolution.dp = " + std::to_string(lattice.dp) + " m: no particle fits; refine dp");

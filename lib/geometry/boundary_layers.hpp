@@ -22,8 +22,9 @@ void add_tank_layers(const SceneParts& parts, const Lattice& lattice, BoundaryTa
 void add_band_layers(const std::vector<BandPoint>& band, const SceneParts& parts, const Lattice& lattice, BoundaryTable& out);
 
 /// Particles of a body (box: its own lattice, fitted to its faces; mesh: the common lattice), up to three layers deep.
+/// `endless`: axes along which a box repeats with the domain; it has no faces there.
 /// Throws Error(input) when a mesh body is thinner than dp everywhere.
-void add_body_layers(const SolidPart& body, std::int32_t number, const Lattice& lattice, BoundaryTable& out);
+void add_body_layers(const SolidPart& body, std::int32_t number, const Lattice& lattice, const bool (&endless)[3], BoundaryTable& out);
 
 /// The closed faces of a tank, normals into the tank.
 TriangleMesh tank_faces(const WallPart& tank);

@@ -10,6 +10,7 @@
 #include "geometry/checksum.hpp"
 #include "geometry/slide_builder.hpp"
 #include "geometry/water_reach.hpp"
+#include "scene/formula.hpp"
 
 namespace gdesp::geometry {
 namespace {
@@ -97,6 +98,24 @@ std::vector<PorousRegion> porous_regions(const Layout& layout, const FillSpace& 
   return out;
 }
 
+/// Formulas are of the scene's own coordinates.
+void set_start_velocity(const Layout& layout, Case& out) {
+  const Fluid& fluid = layout.scene.fluid;
+  const std::string* const text[3] = {&fluid.velocity_x, &fluid.velocity_y, &fluid.velocity_z};
+  if (text[0]->empty() && text[1]->empty() && text[2]->empty()) return;
+  out.fluid.velocity.assign(out.fluid.position.size(), Vec3f{});
+  for (int a = 0; a < 3; ++a) {
+    if (text[a]->empty() || (layout.scene.dimensions == 2 && a == 1)) continue;
+    const Formula formula(*text[a]);
+    for (std::size_t i = 0; i < out.fluid.position.size(); ++i) {
+      const double v = formula(out.fluid.position[i] + layout.offset);
+      if (!std::isfinite(v))
+        throw Error(ErrorKind::input, "fluid.velocity_" + std::string(1, "xyz"[a]) + " = \"" + *text[a] + "\" has no finite value everywhere in the water");
+      out.fluid.velocity[i][a] = static_cast<float>(v);
+    }
+  }
+}
+
 void fill_fluid(const Layout& layout, const FillSpace& space, Case& out, BuildReport& report) {
   double level = -1e300;
   for (std::size_t k = 0; k < layout.scene.fluid.fill.size(); ++k) {
@@ -115,13 +134,21 @@ void fill_fluid(const Layout& layout, const FillSpace& space, Case& out, BuildRe
     report.fills.push_back(fill);
   }
   thin_to_pores(out.fluid.position, porous_regions(layout, space), space);
+  set_start_velocity(layout, out);
   out.still_water_level = out.fluid.position.empty() ? layout.domain.lower.z : level;
 }
 
 void add_body(const Layout& layout, const SolidPart& part, Body body, Case& out) {
   out.bodies.push_back(std::move(body));
   const auto number = static_cast<std::int32_t>(out.bodies.size());
-  add_body_layers(part, number, layout.lattice, out.boundary);
+  const char* const name[3] = {"x", "y", "z"};
+  bool endless[3];
+  for (int a = 0; a < 3; ++a) {
+    const auto& periodic = layout.scene.periodic;
+    const bool spans = part.box && part.box->lower[a] <= layout.domain.lower[a] && part.box->upper[a] >= layout.domain.upper[a];
+    endless[a] = spans && std::find(periodic.begin(), periodic.end(), name[a]) != periodic.end();
+  }
+  add_body_layers(part, number, layout.lattice, endless, out.boundary);
   const auto base = static_cast<std::int32_t>(out.walls.vertex.size());
   out.walls.vertex.insert(out.walls.vertex.end(), part.mesh.vertex.begin(), part.mesh.vertex.end());
   for (const auto& t : part.mesh.triangle) {
@@ -166,7 +193,7 @@ SlideReport add_solid_slide(const Layout& layout, std::size_t k, Case& out, Note
 }
 
 void add_bodies_and_slides(const Layout& layout, Case& out, BuildReport& report, BuildScope scope) {
-  for (std::size_t k = 0; k < layout.parts.moving.size(); ++k) add_body(layout, layout.parts.moving[k], moving_body(layout.scene.moving[k]), out);
+  for (std::size_t k = 0; k < layout.parts.moving.size(); ++k) add_body(layout, layout.parts.moving[k], moving_body(layout.scene.moving[k], norm(layout.scene.gravity)), out);
   for (std::size_t k = 0; k < layout.parts.slides.size(); ++k) {
     const Slide& slide = layout.scene.slides[k];
     if (slide.kind != "granular") {

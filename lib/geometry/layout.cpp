@@ -38,7 +38,7 @@ Box surface_bounds(const SceneParts& parts, const Scene& scene) {
   Box box = bounds(parts);
   const Box still = box;
   for (std::size_t k = 0; k < parts.moving.size(); ++k) {
-    include_motion(box, bounds(parts.moving[k].mesh), moving_body(scene.moving[k]).motion, scene.time.end);
+    include_motion(box, bounds(parts.moving[k].mesh), moving_body(scene.moving[k], norm(scene.gravity)).motion, scene.time.end);
   }
   for (std::size_t k = 0; k < parts.slides.size(); ++k) {
     if (scene.slides[k].kind == "prescribed") include_motion(box, bounds(parts.slides[k].mesh), prescribed_slide(scene.slides[k]).motion, scene.time.end);

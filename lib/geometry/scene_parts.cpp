@@ -41,6 +41,7 @@ SolidPart solid_of(const Shape& shape, const std::string& name, const Scene& sce
 WallPart wall_of(const Wall& wall, const Scene& scene, Notes& notes) {
   WallPart part;
   part.name = wall.name;
+  part.no_slip = wall.condition == "no-slip";
   if (wall.tank) {
     part.kind = WallPart::Kind::tank;
     part.tank = widened(*wall.tank, scene);
@@ -118,7 +119,10 @@ SceneParts load_parts(const Scene& scene, Notes& notes) {
   TerrainSheet terrain;
   if (!scene.terrain.files.empty()) terrain = load_terrain(scene, notes);
   for (const auto& s : scene.slides) parts.slides.push_back(solid_of(s.shape, "slide \"" + s.name + "\"", scene, terrain, notes));
-  for (const auto& m : scene.moving) parts.moving.push_back(solid_of(m.shape, m.kind + " \"" + m.name + "\"", scene, terrain, notes));
+  for (const auto& m : scene.moving) {
+    parts.moving.push_back(solid_of(m.shape, m.kind + " \"" + m.name + "\"", scene, terrain, notes));
+    parts.moving.back().no_slip = m.condition == "no-slip";
+  }
   for (const auto& f : scene.floating) parts.floating.push_back(solid_of(f.shape, "floating \"" + f.name + "\"", scene, terrain, notes));
   for (const auto& w : scene.walls) parts.walls.push_back(wall_of(w, scene, notes));
   for (std::size_t k = 0; k < scene.fluid.fill.size(); ++k) {
@@ -133,6 +137,7 @@ SceneParts load_parts(const Scene& scene, Notes& notes) {
   parts.terrain = std::move(terrain.mesh);
   parts.terrain_spacing = terrain.spacing;
   parts.terrain_crs = terrain.crs;
+  parts.terrain_no_slip = scene.terrain.condition == "no-slip";
   return parts;
 }
 

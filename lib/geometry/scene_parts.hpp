@@ -22,6 +22,7 @@ struct SolidPart {
   std::string name;
   TriangleMesh mesh;
   std::optional<Box> box;
+  bool no_slip = false;
 };
 
 /// A wall at rest: a tank (inner box, open faces), a closed solid, or a sheet that is solid below.
@@ -31,6 +32,7 @@ struct WallPart {
   Box tank;
   std::vector<std::string> open;
   TriangleMesh mesh;
+  bool no_slip = false;
 };
 
 /// Everything the scene is made of. Indices of bodies follow the scene's lists.
@@ -38,6 +40,7 @@ struct SceneParts {
   TriangleMesh terrain;               ///< sheet, normals up; empty without terrain
   double terrain_spacing = 0.0;       ///< m, mean edge of its triangles seen from above
   std::string terrain_crs;            ///< WKT, empty when unknown
+  bool terrain_no_slip = false;
   std::vector<WallPart> walls;
   std::vector<SolidPart> moving, slides, floating;
   std::vector<SolidPart> fluid;       ///< closed meshes to be filled, by fill (empty mesh for other kinds)

@@ -86,7 +86,7 @@ double default_run_up(const Scene& scene, const SceneParts& parts, const std::ve
     speed = std::sqrt(2.0 * g * (high - low + scene.dp));
     if (top > low) speed = std::max(speed, slide_efficiency * std::sqrt(2.0 * g * (top - low)));
     for (const auto& s : scene.slides) speed = std::max(speed, norm(s.velocity));
-    for (const auto& body : scene.moving) speed = std::max(speed, largest_speed(moving_body(body).motion));
+    for (const auto& body : scene.moving) speed = std::max(speed, largest_speed(moving_body(body, g).motion));
   }
   return speed * speed / (2.0 * g);
 }

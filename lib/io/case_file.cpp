@@ -159,6 +159,7 @@ void read_boundary(const std::string& path, Case& c) {
   c.boundary = boundary_of(*open_part(path), path);
   check_finite(path, "normal", c.boundary.normal);
   check_finite(path, "depth", c.boundary.depth);
+  check_finite(path, "friction", c.boundary.friction);
   check_bodies(path, c.boundary.body, c.bodies.size());
 }
 

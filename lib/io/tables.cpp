@@ -96,7 +96,7 @@ void write_boundary(const std::string& path, const BoundaryTable& b, std::vector
   VtpContent content;
   content.position = &b.position;
   content.field = std::move(field);
-  content.points = {vtp_array("normal", b.normal), vtp_array("depth", b.depth), vtp_array("body", b.body),
+  content.points = {vtp_array("normal", b.normal), vtp_array("depth", b.depth), vtp_array("friction", b.friction), vtp_array("body", b.body),
                     vtp_array("velocity", b.velocity), vtp_array("pressure", b.pressure)};
   write_vtp(path, content);
 }
@@ -147,6 +147,7 @@ BoundaryTable boundary_of(const PointSource& source, const std::string& path) {
   b.position = columns.positions();
   columns.read("normal", b.normal);
   columns.read("depth", b.depth);
+  columns.read("friction", b.friction);
   columns.read_integers("body", b.body);
   columns.read("velocity", b.velocity);
   columns.read("pressure", b.pressure);

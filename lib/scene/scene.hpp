@@ -66,6 +66,7 @@ struct FluidFill {
 struct Fluid {
   double density = 1000.0;                ///< kg/m3
   double kinematic_viscosity = 1.0e-6;    ///< m2/s
+  std::string velocity_x, velocity_y, velocity_z;  ///< m/s at the start, formulas of x, y, z (formula.hpp); empty: 0
   std::vector<FluidFill> fill;
 };
 
@@ -87,6 +88,13 @@ struct Slide {
   std::string motion_csv;                 ///< prescribed: t,dx,dy,dz
 };
 
+/// The wave that a piston makes.
+struct Wave {
+  std::string kind = "none";              ///< "none" | "solitary"
+  double height = 0.0, depth = 0.0;       ///< m
+  Vec3d direction{1.0, 0.0, 0.0};         ///< of its travel
+};
+
 /// A gate, piston or other body with prescribed motion.
 struct MovingBody {
   std::string name;
@@ -97,6 +105,7 @@ struct MovingBody {
   double stop = 1e30;                     ///< s
   double remove_at = -1.0;                ///< s; < 0: never
   std::string motion_csv;                 ///< t,dx,dy,dz instead of velocity
+  Wave wave;                              ///< piston: instead of both
   std::string condition = "free-slip";
 };
 
@@ -140,6 +149,7 @@ struct Numerics {
   double artificial_viscosity = 0.05;     ///< alpha
   double density_diffusion = 0.1;         ///< delta; 0: none
   double shifting = 0.0;                  ///< 0: none
+  std::string tension = "cavitation";     ///< "cavitation" | "controlled" | "kept"
   double cfl = 0.0;                       ///< 0: the scheme's own default
   double time_step = 0.0;                 ///< s; 0: adaptive; > 0: fixed (paper)
   double grain_time_step_share = 0.2;     ///< of the Rayleigh (hertz) or contact time (linear)
@@ -170,7 +180,7 @@ struct Scene {
   int dimensions = 3;
   Vec3d gravity{0.0, 0.0, -9.81};
   std::optional<Box> domain;              ///< default: from the geometry
-  std::vector<std::string> periodic;      ///< "x", "y"
+  std::vector<std::string> periodic;      ///< "x", "y", "z"
   std::string wall_particles = "reachable";  ///< "reachable" | "all": where fluid can come to, or everywhere
   double run_up = 0.0;                    ///< m above the highest water that counts as reachable; 0: from the expected speed
   double dp = 0.0;                        ///< m, particle spacing; required

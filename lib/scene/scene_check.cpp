@@ -3,6 +3,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "scene/formula.hpp"
 #include "scene/scene_visitor.hpp"
 
 namespace gdesp::scene_detail {
@@ -88,6 +89,11 @@ void check_moving(const KeySources& sources, const std::string& key, const Movin
   check_shape(sources, key, body.shape, dimensions);
   if (!body.motion_csv.empty() && sources.given(key + ".velocity") && norm(body.velocity) > 0.0)
     fail(sources, key, "give either velocity or motion_csv");
+  if (body.wave.kind != "none") {
+    if (!(body.wave.height > 0.0) || !(body.wave.depth > 0.0)) fail(sources, key + ".wave", "needs height > 0 and depth > 0 (m)");
+    if (!(norm(body.wave.direction) > 0.0)) fail(sources, key + ".wave.direction", "is no direction");
+    if (!body.motion_csv.empty() || norm(body.velocity) > 0.0) fail(sources, key, "give one of wave, velocity and motion_csv");
+  }
   if (body.stop < body.start)
     fail(sources, key + ".stop", std::to_string(body.stop) + " s is before start = " + std::to_string(body.start) + " s");
 }
@@ -127,6 +133,19 @@ void name_slides(Scene& scene, const KeySources& sources) {
   check_names(sources, "slide", scene.slides);
 }
 
+void check_start_velocity(const Fluid& fluid, const KeySources& sources) {
+  const std::pair<const char*, const std::string*> formulas[] = {
+      {"fluid.velocity_x", &fluid.velocity_x}, {"fluid.velocity_y", &fluid.velocity_y}, {"fluid.velocity_z", &fluid.velocity_z}};
+  for (const auto& [key, text] : formulas) {
+    if (text->empty()) continue;
+    try {
+      Formula formula(*text);
+    } catch (const Error& error) {
+      fail(sources, key, error.what());
+    }
+  }
+}
+
 void check_domain(const Scene& scene, const KeySources& sources) {
   const bool lower = sources.given("domain.lower"), upper = sources.given("domain.upper");
   if (lower != upper)
@@ -143,6 +162,7 @@ void check_scene(Scene& scene, const KeySources& sources) {
   const auto item = [](const char* table, std::size_t i) { return std::string(table) + "." + std::to_string(i); };
   const int dimensions = scene.dimensions;
   check_domain(scene, sources);
+  check_start_velocity(scene.fluid, sources);
   if (scene.terrain.vertical_scale == 0.0) fail(sources, "terrain.vertical_scale", "must not be 0");
   if (scene.terrain.bathymetry_scale == 0.0) fail(sources, "terrain.bathymetry_scale", "must not be 0");
   for (std::size_t i = 0; i < scene.fluid.fill.size(); ++i)

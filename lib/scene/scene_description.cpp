@@ -30,6 +30,9 @@ void describe_fluid(V& v, Fluid& fluid) {
   v.number({"density", "kg/m3", "reference density of the fluid"}, fluid.density, positive);
   v.number({"kinematic_viscosity", "m2/s", "kinematic viscosity of the fluid"}, fluid.kinematic_viscosity,
            not_negative);
+  v.text({"velocity_x", "m/s", "velocity at the start, a formula of x, y, z (m) such as \"0.1*sin(2*pi*x)\"; default: 0"}, fluid.velocity_x);
+  v.text({"velocity_y", "m/s", "the same along y"}, fluid.velocity_y);
+  v.text({"velocity_z", "m/s", "the same along z"}, fluid.velocity_z);
   v.tables("fill", fluid.fill, [](V& w, FluidFill& fill) {
     w.choice({"kind", "", "up to a level by flood fill, a box, or a closed mesh; default: by the keys given"},
              fill.kind, {"level", "box", "mesh"});
@@ -108,6 +111,13 @@ void describe_moving(V& v, Scene& scene, const char* kind) {
     w.number({"remove_at", "s", "time at which the body vanishes; < 0: never"}, body.remove_at, any_number);
     w.path({"motion_csv", "", "file of t,dx,dy,dz, instead of velocity"}, body.motion_csv);
     w.choice({"condition", "", "what the fluid feels along the body"}, body.condition, wall_conditions);
+    if (body.kind != "piston") return;
+    w.enter("wave");
+    w.choice({"kind", "", "the wave that the piston makes, instead of velocity and motion_csv"}, body.wave.kind, {"none", "solitary"});
+    w.number({"height", "m", "height of the crest above still water"}, body.wave.height, not_negative);
+    w.number({"depth", "m", "depth of still water at the piston"}, body.wave.depth, not_negative);
+    w.vector({"direction", "1", "in which the piston moves at first and the wave runs"}, body.wave.direction);
+    w.leave();
   });
   scene.moving = std::move(others);
   scene.moving.insert(scene.moving.end(), bodies.begin(), bodies.end());
@@ -166,7 +176,9 @@ void describe_numerics(V& v, Scene& scene) {
            {"artificial", "morris", "none"});
   v.number({"artificial_viscosity", "1", "alpha; preset paper: 0"}, n.artificial_viscosity, not_negative);
   v.number({"density_diffusion", "1", "delta, 0: none; preset paper: 0"}, n.density_diffusion, not_negative);
-  v.number({"shifting", "1", "particle shifting coefficient, 0: none"}, n.shifting, not_negative);
+  v.number({"shifting", "1", "particle shifting coefficient, 0: none; about 20"}, n.shifting, not_negative);
+  v.choice({"tension", "", "water under tension opens (cavitation), holds without clumping (controlled), or holds (kept); preset paper: kept"},
+           n.tension, {"cavitation", "controlled", "kept"});
   v.number({"cfl", "1", "Courant number; 0: the scheme's own"}, n.cfl, not_negative);
   v.number({"time_step", "s", "fixed time step; 0: adaptive"}, n.time_step, not_negative);
   v.number({"grain_time_step_share", "1", "grain step over the Rayleigh time (hertz) or contact time (linear)"},
@@ -194,7 +206,7 @@ void describe_domain(V& v, Scene& scene) {
   v.enter("domain");
   v.optional_vector({"lower", "m", "lower corner; default: from the geometry"}, lower);
   v.optional_vector({"upper", "m", "upper corner; default: from the geometry"}, upper);
-  v.choices({"periodic", "", "axes along which the domain repeats"}, scene.periodic, {"x", "y"});
+  v.choices({"periodic", "", "axes along which the domain repeats"}, scene.periodic, {"x", "y", "z"});
   v.choice({"wall_particles", "", "wall particles only where water can come to, or on all terrain and walls"},
            scene.wall_particles, {"reachable", "all"});
   v.number({"run_up", "m", "height above the highest water that water may climb (wall_particles reachable); 0: v^2/2g at the expected speed"},
@@ -265,6 +277,7 @@ bool apply_preset(const std::string& preset, Scene& scene) {
   n.time_scheme = "verlet";
   n.walls = "dynamic";
   n.viscosity = "morris";
+  n.tension = "kept";
   n.smoothing_ratio = 1.3;
   n.artificial_viscosity = 0.0;
   n.density_diffusion = 0.0;

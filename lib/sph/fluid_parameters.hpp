@@ -21,6 +21,8 @@ struct FluidParameters {
   bool extrapolated_walls = true;    ///< else dynamic boundary particles
   bool paper_form = false;           ///< eqs 3 and 5 as the paper has them
   bool cavitates = true;             ///< no tension in water (sph.cavitation)
+  bool tensile_control = false;      ///< tension, without clumping (sph.tensile-control); not with cavitates
+  double shifting = 0.0;             ///< coefficient of sph.shifting; 0: none
   int dimensions = 3;
   double skin = 0.0;                 ///< m, added to the support of the lists; 0: chosen from the motion
   double level = 0.0;                ///< m, still-water level for the hydrostatic start

@@ -22,6 +22,8 @@ struct FluidPass {
   const float* walls;
   const float* wall_friction;
   const float* mass_share;
+  const float* own_pressure;  // null: A of the record
+  const float* wall_ghost;    // null: no no-slip walls
   float* rate;
   bool trims;
   ClusterTrim fluid_trim, wall_trim;
@@ -30,14 +32,14 @@ struct FluidPass {
   struct Particle { Real x, y, z, vx, vy, vz, A; };
 
   template <bool Wall, class Lanes>
-  GDESP_HD void add_cluster(const Lanes& lanes, const Particle<typename Lanes::Real>& i, const float* rj,
+  GDESP_HD void add_cluster(const Lanes& lanes, const Particle<typename Lanes::Real>& i, const float* rj, const float* vj,
                             const typename Lanes::Real& friction, const Vec3f& shift,
                             FluidRates<typename Lanes::Real>& rates) const {
     using Real = typename Lanes::Real;
     add_fluid_pair<WithMomentum, WithContinuity, Kind, !Wall>(
         law, i.x + Real(shift.x) - lanes.load_j(rj + row_x), i.y + Real(shift.y) - lanes.load_j(rj + row_y),
-        i.z + Real(shift.z) - lanes.load_j(rj + row_z), i.vx - lanes.load_j(rj + row_vx),
-        i.vy - lanes.load_j(rj + row_vy), i.vz - lanes.load_j(rj + row_vz), i.A, lanes.load_j(rj + row_A),
+        i.z + Real(shift.z) - lanes.load_j(rj + row_z), i.vx - lanes.load_j(vj),
+        i.vy - lanes.load_j(vj + 4), i.vz - lanes.load_j(vj + 8), i.A, lanes.load_j(rj + row_A),
         lanes.load_j(rj + row_B), friction, rates);
   }
 
@@ -51,13 +53,16 @@ struct FluidPass {
     const float* ri = fluid + record_offset(c);
     const Particle<Real> i{lanes.load_i(ri + row_x),  lanes.load_i(ri + row_y),  lanes.load_i(ri + row_z),
                            lanes.load_i(ri + row_vx), lanes.load_i(ri + row_vy), lanes.load_i(ri + row_vz),
-                           lanes.load_i(ri + row_A)};
+                           lanes.load_i(own_pressure ? own_pressure + 4 * static_cast<std::int64_t>(c) : ri + row_A)};
     FluidRates<Real> rates;
     for_each_cluster(fluid_list, c, [&](Index j, const Vec3f& shift) {
-      add_cluster<false>(lanes, i, fluid + record_offset(j), Real(1.0f), shift, rates);
+      const float* rj = fluid + record_offset(j);
+      add_cluster<false>(lanes, i, rj, rj + row_vx, Real(1.0f), shift, rates);
     });
     for_each_cluster(wall_list, c, [&](Index j, const Vec3f& shift) {
-      add_cluster<true>(lanes, i, walls + record_offset(j), lanes.load_j(wall_friction + 4 * static_cast<std::int64_t>(j)),
+      const float* rj = walls + record_offset(j);
+      const float* vj = wall_ghost ? wall_ghost + 16 * static_cast<std::int64_t>(j) : rj + row_vx;
+      add_cluster<true>(lanes, i, rj, vj, lanes.load_j(wall_friction + 4 * static_cast<std::int64_t>(j)),
                         shift, rates);
     });
     float* out = rate + 16 * static_cast<std::int64_t>(c);
@@ -105,11 +110,13 @@ struct LatticeShare {
   }
 };
 
+template <bool NoSlip>
 struct ExtrapolateWalls {
   FluidPairLaw law;
   ClusterListView list;
   const float* fluid;
   float* walls;
+  float* ghost;  // no-slip walls only
 
   template <class Lanes>
   GDESP_HD void operator()(Index c, const Lanes& lanes) const {
@@ -120,22 +127,35 @@ struct ExtrapolateWalls {
     bool any = false;
     for_each_cluster(list, c, [&](Index j, const Vec3f& shift) {
       const float* rj = fluid + record_offset(j);
-      add_wall_pair(law.inverse_support, x + Real(shift.x) - lanes.load_j(rj + row_x),
-                    y + Real(shift.y) - lanes.load_j(rj + row_y), z + Real(shift.z) - lanes.load_j(rj + row_z),
-                    lanes.load_j(rj + row_A), sums);
+      const Real w = add_wall_pair(law.inverse_support, x + Real(shift.x) - lanes.load_j(rj + row_x),
+                                   y + Real(shift.y) - lanes.load_j(rj + row_y),
+                                   z + Real(shift.z) - lanes.load_j(rj + row_z), lanes.load_j(rj + row_A), sums);
+      if constexpr (NoSlip) {
+        sums.vx += w * lanes.load_j(rj + row_vx);
+        sums.vy += w * lanes.load_j(rj + row_vy);
+        sums.vz += w * lanes.load_j(rj + row_vz);
+      }
       any = true;
     });
     if (!any) return;
     lanes.store_sum_i(ri + row_B, sums.weight);
     lanes.store_sum_i(ri + row_A, sums.pressure + Real(law.gx) * sums.rx + Real(law.gy) * sums.ry +
                                       Real(law.gz) * sums.rz);
+    if constexpr (NoSlip) {
+      float* out = ghost + 16 * static_cast<std::int64_t>(c);
+      lanes.store_sum_i(out, sums.vx);
+      lanes.store_sum_i(out + 4, sums.vy);
+      lanes.store_sum_i(out + 8, sums.vz);
+    }
   }
 };
 
 // Second half of the extrapolation: quotient, clip, density.
 struct FinishWalls {
   const std::uint32_t* count;
+  const float* friction;
   float* walls;
+  float* ghost;  // null: no no-slip walls
   GDESP_HD void operator()(Index slot) const {
     const Index c = slot / exec::cluster_size;
     float* r = walls + record_offset(c) + slot % exec::cluster_size;
@@ -145,9 +165,83 @@ struct FinishWalls {
       return;
     }
     const float weight = r[row_B];
+    if (ghost) mirror(16 * static_cast<std::int64_t>(c) + slot % exec::cluster_size, r, weight, friction[slot]);
     const float A = weight > 1.0e-6f ? real::max(r[row_A] / weight, 0.0f) : 0.0f;
     r[row_A] = A;
     r[row_B] = 1.0f / (1.0f + tait_density(A));
+  }
+  GDESP_HD void mirror(std::int64_t at, const float* r, float weight, float has_friction) const {
+    for (int row = 0; row < 12; row += 4) {
+      const float wall = r[row_vx + row];
+      ghost[at + row] = weight > 1.0e-6f && has_friction > 0.0f ? 2.0f * wall - ghost[at + row] / weight : wall;
+    }
+  }
+};
+
+// How evenly particles lie, for shifting and tensile control.
+struct FindSpacing {
+  FluidPairLaw law;
+  ClusterListView fluid_list, wall_list;
+  const float* fluid;
+  const float* walls;
+  float* spacing;
+
+  template <class Lanes>
+  GDESP_HD void operator()(Index c, const Lanes& lanes) const {
+    using Real = typename Lanes::Real;
+    const float* ri = fluid + record_offset(c);
+    const Real x = lanes.load_i(ri + row_x), y = lanes.load_i(ri + row_y), z = lanes.load_i(ri + row_z);
+    SpacingSums<Real> sums;
+    const auto add = [&](const float* rj, const Vec3f& shift) {
+      const Real r[3] = {x + Real(shift.x) - lanes.load_j(rj + row_x), y + Real(shift.y) - lanes.load_j(rj + row_y),
+                         z + Real(shift.z) - lanes.load_j(rj + row_z)};
+      add_spacing_pair(law.inverse_support, law.slope, r, lanes.load_j(rj + row_B), sums);
+    };
+    for_each_cluster(fluid_list, c, [&](Index j, const Vec3f& shift) { add(fluid + record_offset(j), shift); });
+    for_each_cluster(wall_list, c, [&](Index j, const Vec3f& shift) { add(walls + record_offset(j), shift); });
+    float* out = spacing + 16 * static_cast<std::int64_t>(c);
+    lanes.store_sum_i(out, sums.x);
+    lanes.store_sum_i(out + 4, sums.y);
+    lanes.store_sum_i(out + 8, sums.z);
+    lanes.store_sum_i(out + 12, sums.divergence);
+  }
+};
+
+struct FindNearSurface {
+  float inverse_support, least_divergence;
+  ClusterListView list;
+  const float* fluid;
+  const float* spacing;
+  float* near_surface;
+
+  template <class Lanes>
+  GDESP_HD void operator()(Index c, const Lanes& lanes) const {
+    using exec::max;
+    using exec::select;
+    using exec::sqrt;
+    using Real = typename Lanes::Real;
+    const float* ri = fluid + record_offset(c);
+    const Real x = lanes.load_i(ri + row_x), y = lanes.load_i(ri + row_y), z = lanes.load_i(ri + row_z);
+    Real nearest(0.0f);
+    for_each_cluster(list, c, [&](Index j, const Vec3f& shift) {
+      const float* rj = fluid + record_offset(j);
+      const Real rx = x + Real(shift.x) - lanes.load_j(rj + row_x), ry = y + Real(shift.y) - lanes.load_j(rj + row_y),
+                 rz = z + Real(shift.z) - lanes.load_j(rj + row_z);
+      const Real t = Real(1.0f) - sqrt(rx * rx + ry * ry + rz * rz) * Real(inverse_support);
+      const Real divergence = lanes.load_j(spacing + 16 * static_cast<std::int64_t>(j) + 12);
+      nearest = max(nearest, select(divergence < Real(least_divergence), t, Real(0.0f)));
+    });
+    lanes.store_max_i(near_surface + 4 * static_cast<std::int64_t>(c), nearest);
+  }
+};
+
+struct ControlTension {
+  const float* record;
+  const float* near_surface;
+  float* own_pressure;
+  GDESP_HD void operator()(Index s) const {
+    own_pressure[s] = controlled_pressure(record[record_offset(s / exec::cluster_size) + row_A + s % exec::cluster_size],
+                                          near_surface[s]);
   }
 };
 
@@ -243,7 +337,9 @@ void FluidSystem<Exec>::run_fluid_pass_kind(const char* name) {
                   FluidPass<M, C, K>{pair_law(), static_cast<float>(p.sound_speed * p.sound_speed),
                                      static_cast<float>(2.0 * p.density_diffusion * p.h * p.sound_speed),
                                      fluid_fluid_.view(), fluid_wall_.view(), record_.data(), wall_record_.data(),
-                                     wall_friction_.data(), mass_share_.data(), rate_.data(), trims,
+                                     wall_friction_.data(), mass_share_.data(),
+                                     M && !C && p.tensile_control ? own_pressure_.data() : nullptr,
+                                     M && !C && no_slip_ ? wall_ghost_.data() : nullptr, rate_.data(), trims,
                                      fluid_fluid_.trim(record_.data(), record_.data(), cutoff),
                                      fluid_wall_.trim(record_.data(), wall_record_.data(), cutoff)}));
 }
@@ -257,6 +353,21 @@ void FluidSystem<Exec>::run_fluid_pass(const char* name) {
 }
 
 template <class Exec>
+void FluidSystem<Exec>::spacing_pass() {
+  if (!needs_spacing()) return;
+  exec::pair_pass(exec_, "sph::spacing", set_.clusters(),
+                  FindSpacing{pair_law(), fluid_fluid_.view(), fluid_wall_.view(), record_.data(), wall_record_.data(),
+                              spacing_.data()});
+  exec::pair_pass(exec_, "sph::near_surface", set_.clusters(),
+                  FindNearSurface{static_cast<float>(0.5 / parameters_.h),
+                                  surface_divergence * static_cast<float>(parameters_.dimensions), fluid_fluid_.view(),
+                                  record_.data(), spacing_.data(), near_surface_.data()});
+  if (!parameters_.tensile_control) return;
+  exec::parallel_for(exec_, "sph::control_tension", slots(),
+                     ControlTension{record_.data(), near_surface_.data(), own_pressure_.data()});
+}
+
+template <class Exec>
 void FluidSystem<Exec>::momentum_pass() { run_fluid_pass<true, false>("sph::momentum"); }
 template <class Exec>
 void FluidSystem<Exec>::continuity_pass() { run_fluid_pass<false, true>("sph::continuity"); }
@@ -266,11 +377,19 @@ void FluidSystem<Exec>::combined_pass() { run_fluid_pass<true, true>("sph::momen
 template <class Exec>
 void FluidSystem<Exec>::extrapolate_walls() {
   if (wall_set_.clusters() == 0 || !parameters_.extrapolated_walls) return;
-  exec::pair_pass(exec_, "sph::walls", near_walls_.count(),
-                  chosen_clusters(near_walls_.list(), ExtrapolateWalls{pair_law(), wall_fluid_.view(), record_.data(),
-                                                                       wall_record_.data()}));
+  float* ghost = no_slip_ ? wall_ghost_.data() : nullptr;
+  if (no_slip_) {
+    exec::pair_pass(exec_, "sph::walls", near_walls_.count(),
+                    chosen_clusters(near_walls_.list(), ExtrapolateWalls<true>{pair_law(), wall_fluid_.view(), record_.data(),
+                                                                               wall_record_.data(), ghost}));
+  } else {
+    exec::pair_pass(exec_, "sph::walls", near_walls_.count(),
+                    chosen_clusters(near_walls_.list(), ExtrapolateWalls<false>{pair_law(), wall_fluid_.view(), record_.data(),
+                                                                                wall_record_.data(), nullptr}));
+  }
   exec::parallel_for(exec_, "sph::walls_finish", exec::cluster_size * near_walls_.count(),
-                     chosen_slots(near_walls_.list(), FinishWalls{wall_fluid_.view().count, wall_record_.data()}));
+                     chosen_slots(near_walls_.list(), FinishWalls{wall_fluid_.view().count, wall_friction_.data(),
+                                                                  wall_record_.data(), ghost}));
 }
 
 template <class Exec>
@@ -301,6 +420,7 @@ void FluidSystem<Exec>::wall_continuity_pass() {
 
 using Backend = exec::CompiledBackend;
 template FluidPairLaw FluidSystem<Backend>::pair_law() const;
+template void FluidSystem<Backend>::spacing_pass();
 template void FluidSystem<Backend>::momentum_pass();
 template void FluidSystem<Backend>::continuity_pass();
 template void FluidSystem<Backend>::combined_pass();

@@ -89,6 +89,22 @@ std::uint64_t column_key(const Vec3d& r, double width) {
   return (static_cast<std::uint64_t>(ix) << 32) ^ (static_cast<std::uint64_t>(iy) & 0xffffffffu);
 }
 
+// Head (in dp) by which still water on the lattice stands higher than its particles say: above the top layer the sum of
+// the pressure gradient lacks the layers beyond the first, sum (m - 1) g_m over 2 sum g_m, g_m the weight of layer m.
+// Water started without it begins with a jolt.
+double lattice_surface_head(double h_over_dp, int dimensions) {
+  const int reach = static_cast<int>(2.0 * h_over_dp) + 1, reach_y = dimensions == 2 ? 0 : reach;
+  double lacking = 0.0, whole = 0.0;
+  for (int x = -reach; x <= reach; ++x)
+    for (int y = -reach_y; y <= reach_y; ++y)
+      for (int m = 1; m <= reach; ++m) {
+        const double t = std::max(0.0, 1.0 - std::sqrt(static_cast<double>(x * x + y * y + m * m)) / (2.0 * h_over_dp));
+        whole += t * t * t * m;
+        lacking += t * t * t * m * (m - 1);
+      }
+  return 0.5 * lacking / whole;
+}
+
 // Hydrostatic D under the highest water of each column of width dp.
 std::vector<float> hydrostatic_density(const FluidTable& fluid, const FluidParameters& p) {
   std::unordered_map<std::uint64_t, double> top;
@@ -98,8 +114,9 @@ std::vector<float> hydrostatic_density(const FluidTable& fluid, const FluidParam
   }
   std::vector<float> density(fluid.position.size());
   const double c2 = p.sound_speed * p.sound_speed;
+  const double surface = 0.5 + (p.paper_form ? 0.0 : lattice_surface_head(p.h / p.dp, p.dimensions));
   for (std::size_t i = 0; i < density.size(); ++i) {
-    const double head = top[column_key(fluid.position[i], p.dp)] + 0.5 * p.dp - fluid.position[i].z;
+    const double head = top[column_key(fluid.position[i], p.dp)] + surface * p.dp - fluid.position[i].z;
     density[i] = tait_density(static_cast<float>(-p.gravity.z * head / c2));
   }
   return density;
@@ -127,7 +144,7 @@ FluidSystem<Exec>::FluidSystem(const Exec& exec, const Domain& domain, const Flu
       position_(exec), velocity_(exec), density_(exec), id_(exec), mass_share_(exec), porosity_(exec), external_(exec),
       record_(exec), rate_(exec), wall_position_(exec), wall_start_(exec), wall_velocity_(exec), wall_body_(exec),
       wall_density_(exec), wall_friction_(exec), wall_id_(exec), wall_record_(exec), wall_rate_(exec),
-      wall_normal_(exec), wall_depth_(exec), wall_surface_(exec), near_wall_(exec), wall_bodies_(exec), scratch_position_(exec), scratch_vector_(exec), scratch_float_(exec), scratch_uint_(exec),
+      wall_normal_(exec), wall_depth_(exec), wall_surface_(exec), near_wall_(exec), wall_ghost_(exec), spacing_(exec), near_surface_(exec), own_pressure_(exec), wall_bodies_(exec), scratch_position_(exec), scratch_vector_(exec), scratch_float_(exec), scratch_uint_(exec),
       scratch_int_(exec), filling_(exec) {
   start_fluid(fluid);
   start_walls(walls);
@@ -176,6 +193,8 @@ void FluidSystem<Exec>::start_walls(const BoundaryTable& walls) {
     wall_normal_.assign(walls.normal);
     wall_depth_.assign(walls.depth);
   }
+  no_slip_ = parameters_.extrapolated_walls && parameters_.viscosity != Viscosity::none &&
+             std::any_of(walls.friction.begin(), walls.friction.end(), [](float f) { return f > 0.0f; });
   wall_id_.assign(numbered(n));
   walls_move_ = std::any_of(walls.body.begin(), walls.body.end(), [](std::int32_t b) { return b > 0; });
 }
@@ -203,6 +222,11 @@ void FluidSystem<Exec>::sort_fluid() {
   rate_.swap(scratch_float_);
   record_.resize_discard(static_cast<std::size_t>(set_.clusters()) * record_size);
   if (guarded_) near_wall_.resize_discard(6 * static_cast<std::size_t>(n));
+  if (needs_spacing()) {
+    spacing_.resize_discard(4 * static_cast<std::size_t>(n));
+    near_surface_.resize_discard(static_cast<std::size_t>(n));
+  }
+  if (parameters_.tensile_control) own_pressure_.resize_discard(static_cast<std::size_t>(n));
 }
 
 template <class Exec>
@@ -226,6 +250,10 @@ void FluidSystem<Exec>::sort_walls() {
                        SpreadSurface{wall_normal_.data(), wall_depth_.data(), wall_surface_.data()});
   }
   wall_record_.resize_discard(static_cast<std::size_t>(wall_set_.clusters()) * record_size);
+  if (no_slip_) {
+    wall_ghost_.resize_discard(4 * static_cast<std::size_t>(n));
+    wall_ghost_.fill_bytes(0);
+  }
   wall_rate_.resize_discard(static_cast<std::size_t>(n));
   wall_rate_.fill_bytes(0);
   exec::parallel_for(exec_, "sph::walls_reset", n,
@@ -324,7 +352,7 @@ FluidTable FluidSystem<Exec>::table(float density_lag) const {
     t.position.push_back(domain_.metres(position[s]));
     t.velocity.push_back(velocity[s]);
     t.density.push_back(static_cast<float>(parameters_.reference_density * (1.0 + static_cast<double>(D))));
-    t.pressure.push_back(static_cast<float>(stiffness * static_cast<double>(tait_pressure(D))));
+    t.pressure.push_back(static_cast<float>(stiffness * static_cast<double>(cavitated_pressure(tait_pressure(D), parameters_.cavitates))));
     t.porosity.push_back(eps);
     t.mass_share.push_back(share[s]);
     t.id.push_back(id[s]);

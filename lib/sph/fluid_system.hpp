@@ -10,6 +10,7 @@
 #include "sph/activity.hpp"
 #include "sph/fluid_parameters.hpp"
 #include "sph/fluid_views.hpp"
+#include "sph/particle_shifting.hpp"
 #include "sph/pressure_and_viscosity.hpp"
 
 namespace gdesp::sph {
@@ -101,7 +102,7 @@ class FluidSystem {
   // Activity (sph/activity.hpp; fluid_activity.cpp).
   /// Once the water has settled, unless it sleeps already.
   bool may_fall_asleep(double t) const {
-    return parameters_.activity.sleep && !sleeps_ && particles() > 0 && t >= parameters_.activity.settle_time;
+    return parameters_.activity.sleep && !needs_spacing() && !sleeps_ && particles() > 0 && t >= parameters_.activity.settle_time;
   }
   /// Between two steps, once accelerations are there: water that is still and whose forces balance falls asleep.
   void start_sleeping(double t, const Movers& movers);
@@ -112,11 +113,13 @@ class FluidSystem {
   void half_drift(float dt_position, float dt_density);  ///< r += v dt_position, D += dD dt_density, pack
   void extrapolate_walls();
   void find_walls();                                     ///< for the wall guard of kick_drift
+  void spacing_pass();                                   ///< for shifting and tensile control
   void momentum_pass();
   void continuity_pass();
   void combined_pass();
   void wall_continuity_pass();                           ///< `dynamic` walls
-  void kick_drift(float dt, float dt_position);          ///< v += a dt, r += v dt_position, pack
+  /// v += a dt, r += v dt_position, pack; with shifting, `fastest` (m/s) is the largest speed (sph.shifting).
+  void kick_drift(float dt, float dt_position, float fastest);
   void verlet_predict(float dt);                         ///< paper A.3; records hold the predicted v and rho
   void verlet_correct(float dt);                         ///< paper A.1, A.2
   void evolve_dynamic_walls(float dt);                   ///< D of wall particles, `dynamic` walls
@@ -160,6 +163,7 @@ class FluidSystem {
   template <bool M, bool C, Viscosity K> void run_fluid_pass_kind(const char* name);
   FluidStateView state_view();
   RecordPacker packer();
+  bool needs_spacing() const { return parameters_.shifting > 0.0 || parameters_.tensile_control; }
 
   Exec exec_;
   Domain domain_;
@@ -201,6 +205,11 @@ class FluidSystem {
   Array<float, Exec> wall_surface_;             ///< nx ny nz depth (m), 4 each, per cluster
   Array<float, Exec> near_wall_;                ///< of the water: six rows of 4 per cluster (sph/wall_guard.hpp)
   bool guarded_ = false;                        ///< some wall particle knows its normal
+  bool no_slip_ = false;                        ///< some wall particle has friction, and water viscosity
+  Array<float, Exec> wall_ghost_;               ///< vx vy vz weight of no-slip walls, 4 each, per cluster
+  Array<float, Exec> spacing_;                  ///< of the water: -grad C and D (sph/particle_shifting.hpp), 4 each
+  Array<float, Exec> near_surface_;             ///< q of sph.shifting, by slot
+  Array<float, Exec> own_pressure_;             ///< A_i under tensile control, by slot
   Array<WallBodyState, Exec> wall_bodies_;
 
   // Scratch for permutations, one per element size.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sph/fluid_system.hpp"
+#include "sph/particle_shifting.hpp"
 #include "sph/wall_guard.hpp"
 
 namespace gdesp::sph {
@@ -28,6 +29,10 @@ struct KickDrift {
   float dt, dt_position;
   const float* near_wall;  // null: no guard
   float sound_speed;
+  const float* spacing;    // null: no shifting
+  const float* near_surface;
+  float shift_strength;    // k h, m
+  float fastest;           // m/s
   GDESP_HD NearWall wall_at(Index s) const {
     const float* w = near_wall + 24 * static_cast<std::int64_t>(s / exec::cluster_size) + s % exec::cluster_size;
     return {w[0], w[4], w[8], w[12], w[16], w[20]};
@@ -37,7 +42,12 @@ struct KickDrift {
       Vec3f v = state.velocity[s] + state.acceleration(s) * dt;
       if (near_wall) v = guarded_velocity(v, wall_at(s), dt, sound_speed);
       state.velocity[s] = v;
-      state.position[s] = packer.domain.moved(state.position[s], static_cast<Vec3d>(v * dt_position));
+      Vec3f move = v * dt_position;
+      if (spacing) {
+        const float* w = spacing + 16 * static_cast<std::int64_t>(s / exec::cluster_size) + s % exec::cluster_size;
+        move += shift_of({w[0], w[4], w[8]}, near_surface[s], fastest, shift_strength, dt);
+      }
+      state.position[s] = packer.domain.moved(state.position[s], static_cast<Vec3d>(move));
     }
     packer(s, state.position[s], state.velocity[s], state.density[s]);
   }
@@ -180,7 +190,7 @@ struct MoveWalls {
     const Vec3d arm{b.rotation[0] * arm0.x + b.rotation[1] * arm0.y + b.rotation[2] * arm0.z,
                     b.rotation[3] * arm0.x + b.rotation[4] * arm0.y + b.rotation[5] * arm0.z,
                     b.rotation[6] * arm0.x + b.rotation[7] * arm0.y + b.rotation[8] * arm0.z};
-    position[s] = domain.fixed(b.centre + arm);
+    position[s] = domain.wrapped(domain.fixed(b.centre + arm));
     velocity[s] = b.velocity + cross(b.angular_velocity, static_cast<Vec3f>(arm));
   }
 };
@@ -243,10 +253,12 @@ void FluidSystem<Exec>::pack_all() {
 }
 
 template <class Exec>
-void FluidSystem<Exec>::kick_drift(float dt, float dt_position) {
+void FluidSystem<Exec>::kick_drift(float dt, float dt_position, float fastest) {
   exec::parallel_for(exec_, "sph::kick_drift", awake_slots(),
                      chosen_slots(awake_list(), KickDrift{state_view(), packer(), dt, dt_position, guarded_ ? near_wall_.data() : nullptr,
-                                                          static_cast<float>(parameters_.sound_speed)}));
+                                                          static_cast<float>(parameters_.sound_speed),
+                                                          parameters_.shifting > 0.0 ? spacing_.data() : nullptr, near_surface_.data(),
+                                                          static_cast<float>(parameters_.shifting * parameters_.h), fastest}));
 }
 
 template <class Exec>
@@ -315,7 +327,7 @@ template RecordPacker FluidSystem<exec::CompiledBackend>::packer();
 template void FluidSystem<exec::CompiledBackend>::half_drift(float, float);
 template void FluidSystem<exec::CompiledBackend>::pack();
 template void FluidSystem<exec::CompiledBackend>::pack_all();
-template void FluidSystem<exec::CompiledBackend>::kick_drift(float, float);
+template void FluidSystem<exec::CompiledBackend>::kick_drift(float, float, float);
 template void FluidSystem<exec::CompiledBackend>::verlet_predict(float);
 template void FluidSystem<exec::CompiledBackend>::verlet_correct(float);
 template void FluidSystem<exec::CompiledBackend>::evolve_dynamic_walls(float);

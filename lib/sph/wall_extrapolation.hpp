@@ -4,6 +4,10 @@
 //   P_w: pressure of a wall particle [Pa], f: fluid particles, a_w: acceleration of the wall [m/s2]. Not below zero:
 //   a wall does not pull. Source: Adami, Hu, Adams (2012), J. Comput. Phys. 231, 7057, eqs 27-28,
 //   doi:10.1016/j.jcp.2012.05.005.
+// @eq sph.wall.no-slip
+//   v_ghost = 2 v_w - sum_f v_f W_wf / sum_f W_wf,  seen by the viscosity alone; continuity sees v_w.
+//   v_w: velocity of the wall [m/s], f: fluid particles. Makes the velocity of the fluid that of the wall at its surface.
+//   Source: Adami, Hu, Adams (2012), eqs 22-23; Morris, Fox, Zhu (1997), doi:10.1006/jcph.1997.5776.
 #pragma once
 
 #include "core/host_device.hpp"
@@ -17,11 +21,12 @@ struct WallSums {
   Real weight{0.0f};             ///< sum W / alpha
   Real pressure{0.0f};           ///< sum A_f W / alpha
   Real rx{0.0f}, ry{0.0f}, rz{0.0f};  ///< sum (r_w - r_f) W / alpha, m
+  Real vx{0.0f}, vy{0.0f}, vz{0.0f};  ///< sum v_f W / alpha, m/s; of no-slip walls
 };
 
-/// Adds fluid particle f. r = r_w - r_f.
+/// Adds fluid particle f. r = r_w - r_f. Returns W / alpha.
 template <class Real>
-GDESP_HD inline void add_wall_pair(float inverse_support, const Real& rx, const Real& ry, const Real& rz,
+GDESP_HD inline Real add_wall_pair(float inverse_support, const Real& rx, const Real& ry, const Real& rz,
                                    const Real& A_f, WallSums<Real>& sums) {
   using real::max;
   using real::sqrt;
@@ -32,6 +37,7 @@ GDESP_HD inline void add_wall_pair(float inverse_support, const Real& rx, const 
   sums.rx += w * rx;
   sums.ry += w * ry;
   sums.rz += w * rz;
+  return w;
 }
 
 }  // namespace gdesp::sph

@@ -2,9 +2,10 @@
 // @eq sph.wall.guard
 //   A particle of water at distance s from the wall's true surface may approach it by half that distance a step at most:
 //     v_n >= v_w,n - s/(2 dt)  for s > 0;   v_n >= v_w,n + min(-s/(10 dt), c/20)  for s <= 0.
-//   s and the normal n are means over the wall particles near by, weighted by (1 - r/(2 dp))^6, of
-//     s_w = (r - r_w) . n_w - depth_w,
-//   so that the nearest one decides at edges. v_n, v_w,n: normal velocity of water and wall [m/s]; c: sound speed.
+//   s and the normal n are means over the wall particles near by, weighted by (1 - |r - f_w|/(2 dp))^6, of
+//     s_w = (r - f_w) . n_w,   f_w = r_w + depth_w n_w,
+//   f_w: the point of the surface that the wall particle lies below. The nearest piece of the surface decides at edges.
+//   (Weights by |r - r_w| let the crest of a dam, whose plane lies above, speak for water beside its face.) v_n, v_w,n: normal velocity of water and wall [m/s]; c: sound speed.
 //   In ordinary flow the bound lies near c/6 and never acts; it is what keeps a particle from slipping between wall
 //   particles on stair-stepped terrain (extrapolated pressures alone let some through). Own construction.
 #pragma once
@@ -26,12 +27,13 @@ GDESP_HD inline void add_wall_guard(float inverse_reach, const Real r[3], const 
                                     const Real v[3], WallGuardSums<Real>& sums) {
   using real::max;
   using real::sqrt;
-  const Real t = max(Real(0.0f), Real(1.0f) - sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]) * Real(inverse_reach));
+  const Real x = r[0] - depth * n[0], y = r[1] - depth * n[1], z = r[2] - depth * n[2];
+  const Real t = max(Real(0.0f), Real(1.0f) - sqrt(x * x + y * y + z * z) * Real(inverse_reach));
   const Real t3 = t * t * t;
   // A wall particle without a normal (zero) has no say.
   const Real w = t3 * t3 * (n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
   sums.weight += w;
-  sums.distance += w * (r[0] * n[0] + r[1] * n[1] + r[2] * n[2] - depth);
+  sums.distance += w * (x * n[0] + y * n[1] + z * n[2]);
   sums.nx += w * n[0];
   sums.ny += w * n[1];
   sums.nz += w * n[2];

@@ -86,9 +86,9 @@ sph::ActivityParameters activity_parameters(const Case& c) {
 sph::FluidParameters fluid_parameters(const Case& c) {
   const Scene& s = c.scene;
   const Numerics& n = s.numerics;
-  if (n.shifting > 0.0)
-    throw Error(ErrorKind::input, "numerics.shifting = " + std::to_string(n.shifting) +
-                                      ": this version has no particle shifting; valid: 0");
+  if (n.time_scheme != "split" && (n.shifting > 0.0 || n.tension == "controlled"))
+    throw Error(ErrorKind::input, "numerics.time_scheme = \"" + n.time_scheme +
+                                      "\": shifting and tension = \"controlled\" need \"split\"");
   sph::FluidParameters p;
   p.dp = s.dp;
   p.h = n.smoothing_ratio * s.dp;
@@ -102,7 +102,9 @@ sph::FluidParameters fluid_parameters(const Case& c) {
   p.density_diffusion = n.density_diffusion;
   p.extrapolated_walls = n.walls == "extrapolated";
   p.paper_form = n.preset == "paper";
-  p.cavitates = !p.paper_form;
+  p.cavitates = n.tension == "cavitation";
+  p.tensile_control = n.tension == "controlled";
+  p.shifting = n.shifting;
   p.dimensions = s.dimensions;
   p.skin = n.skin;
   p.level = c.still_water_level;
@@ -151,7 +153,7 @@ TimeParameters time_parameters(const Numerics& n) {
 void set_domain(const Case& c, SimulationInput& input) {
   input.lower = c.domain.lower;
   input.upper = c.domain.upper;
-  for (const std::string& axis : c.scene.periodic) input.periodic[axis == "x" ? 0 : 1] = true;
+  for (const std::string& axis : c.scene.periodic) input.periodic[axis == "x" ? 0 : axis == "y" ? 1 : 2] = true;
   const double margin = c.scene.dp;
   const auto include = [&](const std::vector<Vec3d>& position) {
     for (const Vec3d& r : position)

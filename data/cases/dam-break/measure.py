@@ -15,7 +15,7 @@ import measure_tools as tools
 HEIGHT, GRAVITY, DENSITY, WALL = 0.3, 9.81, 997.0, 1.61
 RATE = (GRAVITY / HEIGHT) ** 0.5
 SCALE = DENSITY * GRAVITY * HEIGHT
-HEIGHTS = {"sensor2": 15.0, "sensor3": 30.0, "sensor4": 80.0}  # mm
+HEIGHTS = {"sensor2": 15.0, "sensor3": 30.0}  # mm
 
 run = tools.run_argument()
 rows = tools.Rows()

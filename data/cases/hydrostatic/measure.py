@@ -14,17 +14,16 @@ DEPTH, GRAVITY, DENSITY = 0.2, 9.81, 1000.0
 
 speed = pressure = mean = 0.0
 for time, path in tools.frames(run):
-    if time == 0.0:
+    if time < 1.0:
         continue
     frame = tools.read_vtp(path)
     speed = max(speed, max(math.hypot(*v) for v in frame["velocity"]))
-    if time >= 1.0:
-        errors = [p / (DENSITY * GRAVITY * DEPTH) - 1.0 + r[2] / DEPTH for p, r in zip(frame["pressure"], frame["position"])]
-        pressure = max(pressure, max(map(abs, errors)))
-        mean = tools.root_mean_square(errors)
-rows.add("largest pressure error / (rho g H)", "1", pressure, 0.0, pressure, 0.02)
+    errors = [p / (DENSITY * GRAVITY * DEPTH) - 1.0 + r[2] / DEPTH for p, r in zip(frame["pressure"], frame["position"])]
+    pressure = max(pressure, max(map(abs, errors)))
+    mean = tools.root_mean_square(errors)
+rows.add("largest pressure error from 1 s on / (rho g H)", "1", pressure, 0.0, pressure, 0.02)
 rows.add("RMS pressure error / (rho g H) at the end", "1", mean, 0.0, mean, 0.01)
-rows.add("largest spurious speed / sqrt(g H)", "1", speed / math.sqrt(GRAVITY * DEPTH), 0.0,
+rows.add("largest spurious speed from 1 s on / sqrt(g H)", "1", speed / math.sqrt(GRAVITY * DEPTH), 0.0,
          speed / math.sqrt(GRAVITY * DEPTH), 0.005)
 lost = tools.last_log(run)["lost_fluid"]
 rows.add("particles lost", "1", lost, 0, lost, 0)

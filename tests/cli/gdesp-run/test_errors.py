@@ -35,7 +35,8 @@ class Errors(run_case.RunCase):
         case = self.case()
         self.refused(3, case, "--set", "resolution.dp=0.1", says=["resolution.dp", "mesh2particles"], leaves=[case])
         self.refused(3, case, "--set", "numerics.clf=0.1", says=["clf", "cfl"], leaves=[case])
-        self.refused(3, case, "--set", "numerics.shifting=0.5", says=["numerics.shifting = 0.5", "valid: 0"], leaves=[case])
+        self.refused(3, case, "--set", "numerics.shifting=2", "--set", "numerics.time_scheme=verlet",
+                     says=["numerics.time_scheme", "shifting", "split"], leaves=[case])
 
     def test_existing_output(self):
         case = self.case()

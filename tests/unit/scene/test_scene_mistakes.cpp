@@ -76,7 +76,7 @@ TEST_F(SceneMistakes, out_of_range) {
 TEST_F(SceneMistakes, word_that_is_no_choice) {
   EXPECT_TRUE(mentions(refusal(dp + "[numerics]\npreset = \"papr\"\n"),
                        {"lake.toml:4", "numerics.preset", "'papr'", "accurate, paper", "did you mean \"paper\"?"}));
-  EXPECT_TRUE(mentions(refusal(dp + "[domain]\nperiodic = [\"z\"]\n"), {"domain.periodic", "'z'", "x, y"}));
+  EXPECT_TRUE(mentions(refusal(dp + "[domain]\nperiodic = [\"w\"]\n"), {"domain.periodic", "'w'", "x, y, z"}));
 }
 
 TEST_F(SceneMistakes, missing_input_file) {

@@ -24,6 +24,9 @@ dp = 0.25
 [fluid]
 density = 998.2
 kinematic_viscosity = 1.1e-6
+velocity_x = "0.5*z"
+velocity_y = "x*y"
+velocity_z = "0"
 
 [[fluid.fill]]
 level = 2.5
@@ -140,6 +143,7 @@ viscosity = "none"
 artificial_viscosity = 0.05
 density_diffusion = 0.2
 shifting = 0.3
+tension = "kept"
 cfl = 0.15
 time_step = 1e-5
 grain_time_step_share = 0.1

@@ -9,11 +9,14 @@
 // @eq sph.wall.extrapolation
 // @eq sph.wall.guard
 // @eq sph.cavitation
+// @eq sph.shifting
+// @eq sph.tensile-control
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "exec/lanes.hpp"
+#include "sph/particle_shifting.hpp"
 #include "sph/pressure_and_viscosity.hpp"
 #include "sph/tait.hpp"
 #include "sph/wall_extrapolation.hpp"
@@ -159,6 +162,55 @@ TEST(WallGuard, stops_half_way_to_the_wall_and_leaves_the_rest_alone) {
   const Vec3f slow = guarded_velocity({3.0f, 0.0f, -1.9f}, wall, 0.1f, 100.0f);
   EXPECT_EQ(slow.z, -1.9f);
   EXPECT_EQ(guarded_velocity({0, 0, -9.0f}, {}, 0.1f, 100.0f).z, -9.0f);
+}
+
+// -grad C and D over a square lattice of spacing dp, particles with z > top left out, one moved by (dx, 0).
+SpacingSums<float> lattice_spacing(double dp, double h, double top, double dx) {
+  SpacingSums<float> sums;
+  const double slope = dp * dp * 5.0 * wendland_normalisation(h, 2) / (h * h) / lattice_gradient_moment(h / dp, 2);
+  for (int i = -4; i <= 4; ++i)
+    for (int k = -4; k <= 4; ++k) {
+      if ((i == 0 && k == 0) || k * dp > top) continue;
+      const float r[3] = {static_cast<float>(-i * dp + dx), 0.0f, static_cast<float>(-k * dp)};
+      add_spacing_pair(static_cast<float>(0.5 / h), static_cast<float>(slope), r, 1.0f, sums);
+    }
+  return sums;
+}
+
+TEST(Shifting, moves_back_towards_the_lattice_and_not_at_the_surface) {
+  const double dp = 0.1, h = 0.15;
+  const SpacingSums<float> inside = lattice_spacing(dp, h, 1.0, 0.0);
+  EXPECT_NEAR(inside.divergence, 2.0f, 0.02f);
+  EXPECT_NEAR(inside.x, 0.0f, 1e-4f);
+  const SpacingSums<float> displaced = lattice_spacing(dp, h, 1.0, 0.02);
+  const Vec3f back = shift_of({displaced.x, displaced.y, displaced.z}, 0.0f, 1.0f, 0.3f, 0.01f);
+  EXPECT_LT(back.x, 0.0f);
+  EXPECT_NEAR(back.x, 0.3f * 0.01f * displaced.x, 1e-7f);
+  EXPECT_NEAR(back.z, 0.0f, 1e-7f);
+  const SpacingSums<float> surface = lattice_spacing(dp, h, 0.05, 0.0);
+  EXPECT_LT(surface.divergence, surface_divergence * 2.0f);
+  EXPECT_GT(displaced.divergence, surface_divergence * 2.0f);
+  EXPECT_GT(surface.z, 1.0f) << "without f they would be pushed out of the water";
+  EXPECT_EQ(norm(shift_of({surface.x, surface.y, surface.z}, 0.5f, 1.0f, 0.3f, 0.01f)), 0.0f) << "within h of the surface";
+  EXPECT_EQ(norm(shift_of({1.0f, 0.0f, 0.0f}, 0.0f, 0.0f, 0.3f, 0.01f)), 0.0f) << "still water stays";
+  EXPECT_NEAR(norm(shift_of({1e6f, 0.0f, 0.0f}, 0.0f, 1.0f, 0.3f, 0.01f)), 0.4f * 0.01f, 1e-6f) << "bounded";
+}
+
+TEST(TensileControl, turns_the_sign_of_tension_inside_only) {
+  EXPECT_EQ(controlled_pressure(-3.0f, 0.0f), 3.0f);
+  EXPECT_EQ(controlled_pressure(-3.0f, 1.0f), -3.0f) << "at the surface";
+  EXPECT_EQ(controlled_pressure(5.0f, 0.0f), 5.0f);
+}
+
+TEST(WallGuard, crest_of_a_dam_does_not_speak_for_water_beside_its_face) {
+  // A dam of 7 m above the water particle, face at 2 m: below the crest's plane, but well outside.
+  WallGuardSums<float> sums;
+  const float v[3] = {0, 0, 0}, out[3] = {1.0f, 0.0f, 0.0f}, up[3] = {0.0f, 0.0f, 1.0f};
+  const float face[3] = {6.0f, 0.0f, 0.0f}, crest[3] = {10.0f, 0.0f, 0.0f};  // from wall particles 4 m and 8 m behind
+  add_wall_guard(1.0f / 16.0f, face, out, 4.0f, v, sums);
+  add_wall_guard(1.0f / 16.0f, crest, up, 7.0f, v, sums);
+  EXPECT_GT(sums.distance / sums.weight, 1.8f);
+  EXPECT_GT(sums.nx, 20.0f * sums.nz);
 }
 
 TEST(RecordPacker, water_in_tension_has_no_pressure_where_it_cavitates) {

@@ -1,0 +1,37 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Front and profile of a dam break against Ritter's solution."""
+import math
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "scripts"))
+import measure_tools as tools
+
+DEPTH, GRAVITY = 0.3, 9.81
+C = math.sqrt(GRAVITY * DEPTH)
+SHARE = 1.0 / 20.0  # of the depth, where the front is read
+
+run = tools.run_argument()
+rows = tools.Rows()
+
+
+def surface(time):
+    rows_ = tools.analyze("profile", run, "--line", "-2.9,0,4.1,0", "--step", "0.02", "--time", str(time))
+    return [(row["x"], 0.0 if math.isnan(row["z_surface"]) else row["z_surface"]) for row in rows_]
+
+
+def front(time):
+    for (x0, z0), (x1, z1) in zip(points[time][:-1], points[time][1:]):
+        if z0 >= SHARE * DEPTH > z1:
+            place = x0 + (x1 - x0) * (z0 - SHARE * DEPTH) / (z0 - z1)
+    return place
+
+
+points = {time: surface(time) for time in (0.6, 1.2)}
+speed = (2.0 - 3.0 * math.sqrt(SHARE)) * C
+rows.relative("speed of the front (depth h0/20), 0.6 to 1.2 s", "m/s", (front(1.2) - front(0.6)) / 0.6, speed, 0.05)
+rows.relative("place of the front at 1.2 s", "m", front(1.2), speed * 1.2, 0.05)
+errors = [(z - (2.0 * C - x / 1.2) ** 2 / (9.0 * GRAVITY)) / DEPTH for x, z in points[1.2] if -0.9 * C * 1.2 <= x <= C * 1.2]
+value = tools.root_mean_square(errors)
+rows.add("profile at 1.2 s, x/t = -0.9 to 1 sqrt(g h0), RMS / h0", "1", value, 0.0, value, 0.02)

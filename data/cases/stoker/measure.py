@@ -1,0 +1,51 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Plateau, speed of the bore and profile of the rarefaction against Stoker's solution."""
+import math
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "scripts"))
+import measure_tools as tools
+
+LEFT, RIGHT, GRAVITY = 0.3, 0.1, 9.81
+C = math.sqrt(GRAVITY * LEFT)
+
+
+def middle():
+    """Depth of the plateau, by bisection of the rarefaction's velocity less the bore's."""
+    low, high = RIGHT, LEFT
+    for _ in range(80):
+        h = 0.5 * (low + high)
+        u = 2.0 * (C - math.sqrt(GRAVITY * h))
+        behind = (h - RIGHT) * math.sqrt(0.5 * GRAVITY * (1.0 / h + 1.0 / RIGHT))
+        low, high = (h, high) if u > behind else (low, h)
+    return h, u, h * u / (h - RIGHT)
+
+
+h, u, bore = middle()
+run = tools.run_argument()
+rows = tools.Rows()
+
+
+def surface(time):
+    rows_ = tools.analyze("profile", run, "--line", "-2.9,0,2.9,0", "--step", "0.02", "--time", str(time))
+    return [(row["x"], row["z_surface"]) for row in rows_ if not math.isnan(row["z_surface"])]
+
+
+def bore_place(time):
+    points = surface(time)
+    level = 0.5 * (h + RIGHT)
+    for (x0, z0), (x1, z1) in zip(reversed(points[:-1]), reversed(points)):
+        if z0 >= level > z1:
+            return x0 + (x1 - x0) * (z0 - level) / (z0 - z1)
+    return math.nan
+
+
+rows.relative("speed of the bore, 0.7 to 1.3 s", "m/s", (bore_place(1.3) - bore_place(0.7)) / 0.6, bore, 0.05)
+points, t = surface(1.3), 1.3
+plateau = [z for x, z in points if (u - math.sqrt(GRAVITY * h)) * t + 0.1 <= x <= bore * t - 0.3]
+rows.relative("depth of the plateau at 1.3 s, mean", "m", sum(plateau) / len(plateau), h, 0.05)
+errors = [(z - (2.0 * C - x / t) ** 2 / (9.0 * GRAVITY)) / LEFT for x, z in points if -0.9 * C * t <= x <= (u - math.sqrt(GRAVITY * h)) * t]
+value = tools.root_mean_square(errors)
+rows.add("rarefaction at 1.3 s, RMS / h0", "1", value, 0.0, value, 0.02)
