@@ -145,6 +145,7 @@ class FluidSystem {
     a(position_, velocity_, density_, id_, mass_share_, porosity_, external_, record_, rate_);
     a(wall_position_, wall_start_, wall_velocity_, wall_body_, wall_density_, wall_friction_, wall_id_, wall_record_,
       wall_rate_, wall_bodies_, guarded_, wall_normal_, wall_depth_, wall_surface_, near_wall_);
+    a(wall_ghost_, spacing_, near_surface_, own_pressure_);
   }
 
  private:
