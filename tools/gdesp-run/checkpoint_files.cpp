@@ -98,6 +98,47 @@ std::string damage(std::ifstream& file, std::uintmax_t size) {
   return trailer.checksum == checksum.value() ? "" : "is damaged (its checksum does not fit)";
 }
 
+template <class T>
+void put(std::ostream& out, const T& value) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  out.write(reinterpret_cast<const char*>(&value), sizeof value);
+}
+template <class T>
+T get(std::istream& in) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  T value;
+  in.read(reinterpret_cast<char*>(&value), sizeof value);
+  return value;
+}
+
+void put_good_states(std::ostream& out, const std::deque<GoodState>& good) {
+  std::size_t bytes = 0;
+  for (const GoodState& state : good) bytes += state.bytes.size();
+  const bool fit = bytes <= CheckpointFiles::largest_good_states;
+  put(out, static_cast<std::uint64_t>(fit ? good.size() : 0));
+  if (!fit) return;
+  for (const GoodState& state : good) {
+    put(out, state.guard);
+    put(out, state.step);
+    put(out, state.time);
+    put(out, static_cast<std::uint64_t>(state.bytes.size()));
+    out.write(state.bytes.data(), static_cast<std::streamsize>(state.bytes.size()));
+  }
+}
+
+/// The checksum has been found right: counts and sizes are what was written.
+std::deque<GoodState> get_good_states(std::istream& in) {
+  std::deque<GoodState> good(static_cast<std::size_t>(get<std::uint64_t>(in)));
+  for (GoodState& state : good) {
+    state.guard = get<Guard>(in);
+    state.step = get<std::int64_t>(in);
+    state.time = get<double>(in);
+    state.bytes.resize(static_cast<std::size_t>(get<std::uint64_t>(in)));
+    in.read(state.bytes.data(), static_cast<std::streamsize>(state.bytes.size()));
+  }
+  return good;
+}
+
 }  // namespace
 
 void Checksum::add(const char* bytes, std::size_t count) {
@@ -112,13 +153,14 @@ void Checksum::add(const char* bytes, std::size_t count) {
 CheckpointFiles::CheckpointFiles(const std::string& run_folder, std::uint64_t fingerprint)
     : folder_(run_folder + "/checkpoints"), fingerprint_(fingerprint) {}
 
-Checkpoint CheckpointFiles::write(Simulation& simulation, const Watch& watch, double wall_seconds) {
+Checkpoint CheckpointFiles::write(Simulation& simulation, const Guard& guard, const Recovery& recovery,
+                                  double wall_seconds) {
   std::error_code trouble;
   fs::create_directories(folder_, trouble);
   if (trouble) throw Error(ErrorKind::resource, folder_ + ": cannot be made: " + trouble.message());
   char name[48];
   std::snprintf(name, sizeof name, "/step_%012lld.state", static_cast<long long>(simulation.step_count()));
-  const Checkpoint checkpoint{folder_ + name, simulation.step_count(), simulation.time(), wall_seconds, watch};
+  const Checkpoint checkpoint{folder_ + name, simulation.step_count(), simulation.time(), wall_seconds, {}, {}};
   Header header{{}, fingerprint_, checkpoint.step, checkpoint.time, wall_seconds};
   std::memcpy(header.mark, file_mark, sizeof file_mark);
   SafeFile file(checkpoint.path);
@@ -127,7 +169,8 @@ Checkpoint CheckpointFiles::write(Simulation& simulation, const Watch& watch, do
   stream.exceptions(std::ios::badbit);  // what SafeFile throws comes through
   stream.write(reinterpret_cast<const char*>(&header), sizeof header);
   simulation.save(stream);
-  stream.write(reinterpret_cast<const char*>(&watch), sizeof watch);
+  put(stream, recovery.watch(guard));
+  put_good_states(stream, recovery.good_states());
   const Trailer trailer = output.finish();
   file.write(&trailer, sizeof trailer);
   file.commit();
@@ -153,10 +196,8 @@ std::optional<Checkpoint> CheckpointFiles::load_newest(Simulation& simulation) {
       throw Error(ErrorKind::input, path.string() + ": was written for another case, or with other parameters (--set, "
                                                     "--preset); give those of the interrupted run, or --force to start anew");
     simulation.load(file);
-    Watch watch;
-    static_assert(std::is_trivially_copyable_v<Watch>);
-    file.read(reinterpret_cast<char*>(&watch), sizeof watch);
-    return Checkpoint{path.string(), header.step, header.time, header.wall_seconds, watch};
+    const auto watch = get<Watch>(file);
+    return Checkpoint{path.string(), header.step, header.time, header.wall_seconds, watch, get_good_states(file)};
   }
   return std::nullopt;
 }

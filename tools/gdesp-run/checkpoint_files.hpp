@@ -18,6 +18,7 @@ struct Checkpoint {
   double time = 0.0;           ///< s
   double wall_seconds = 0.0;   ///< s, spent up to here
   Watch watch;
+  std::deque<GoodState> good;  ///< of the run when it wrote the checkpoint; none when they are too large for it
 };
 
 class CheckpointFiles {
@@ -25,8 +26,11 @@ class CheckpointFiles {
   /// `fingerprint` names the case and its parameters: states of another one are refused.
   CheckpointFiles(const std::string& run_folder, std::uint64_t fingerprint);
 
-  /// Writes the state now and removes all but the newest two. Throws Error(resource).
-  Checkpoint write(Simulation& simulation, const Watch& watch, double wall_seconds);
+  /// Good states go into a checkpoint while they take no more than this together, bytes.
+  static constexpr std::size_t largest_good_states = std::size_t{512} << 20;
+
+  /// Writes the state now, with what the guard knows, and removes all but the newest two. Throws Error(resource).
+  Checkpoint write(Simulation& simulation, const Guard& guard, const Recovery& recovery, double wall_seconds);
 
   /// Loads the newest sound checkpoint into `simulation`; warns of damaged ones and takes the one before. nullopt when
   /// there is none. Throws Error(input) when the newest sound one belongs to another case or other parameters.

@@ -6,6 +6,7 @@
 #include <new>
 #include <ostream>
 #include <streambuf>
+#include <utility>
 
 #include "cli/cli.hpp"
 #include "exec/profile.hpp"
@@ -57,7 +58,7 @@ void Recovery::relax(Simulation& simulation) {
 void Recovery::keep(Simulation& simulation, const Guard& guard) {
   if (memory_ <= 0.0) return;
   const exec::ProfileScope scope("guard::keep_good_state");
-  Kept state{{}, guard, simulation.step_count(), simulation.time()};
+  GoodState state{{}, guard, simulation.step_count(), simulation.time()};
   if (kept_.size() == most_states) {
     state.bytes = std::move(kept_.front().bytes);
     kept_.pop_front();
@@ -83,14 +84,15 @@ void Recovery::keep(Simulation& simulation, const Guard& guard) {
   }
 }
 
-void Recovery::take_over(const Watch& watch) {
+void Recovery::take_over(const Watch& watch, std::deque<GoodState> good) {
+  kept_ = std::move(good);
   tries_ = watch.tries;
   recoveries_ = watch.recoveries;
   step_factor_ = watch.step_factor;
   clear_after_ = watch.clear_after;
 }
 
-void Recovery::load(const Kept& kept, Simulation& simulation) {
+void Recovery::load(const GoodState& kept, Simulation& simulation) {
   MemoryInput buffer(kept.bytes);
   std::istream stream(&buffer);
   simulation.load(stream);
@@ -100,7 +102,7 @@ nlohmann::ordered_json Recovery::go_back(Simulation& simulation, Guard& guard, c
   ++tries_;
   ++recoveries_;
   if (tries_ > 1 && kept_.size() > 1) kept_.pop_back();  // the newest led here again: it may carry the seed already
-  const Kept& from = kept_.back();
+  const GoodState& from = kept_.back();
   const double sound = simulation.sound_speed();
   load(from, simulation);
   guard = from.guard;

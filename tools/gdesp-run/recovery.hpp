@@ -11,8 +11,15 @@
 
 namespace gdesp::tool {
 
-/// What a checkpoint keeps of the guard and the recovery, so that a resumed run judges as the unbroken one. (The good states
-/// are not in it: docs/stability.md.)
+/// A state that the guard had nothing against, whole.
+struct GoodState {
+  std::vector<char> bytes;
+  Guard guard;
+  std::int64_t step = 0;
+  double time = 0.0;               ///< s
+};
+
+/// What a checkpoint keeps of the guard and the recovery, so that a resumed run judges as the unbroken one.
 struct Watch {
   Guard guard;
   int tries = 0, recoveries = 0;
@@ -44,21 +51,16 @@ class Recovery {
   /// Back to the newest good state as it was, for the files of a run that has failed.
   void restore_newest(Simulation& simulation);
   Watch watch(const Guard& guard) const { return {guard, tries_, recoveries_, step_factor_, clear_after_}; }
-  void take_over(const Watch& watch);
+  const std::deque<GoodState>& good_states() const { return kept_; }
+  void take_over(const Watch& watch, std::deque<GoodState> good);
   /// "3 tries from t = 0.2 s on, with steps down to 1/8 and a sound speed up to 67.5 m/s, ended alike"
   std::string tries_text(const Simulation& simulation) const;
 
  private:
-  struct Kept {
-    std::vector<char> bytes;
-    Guard guard;
-    std::int64_t step;
-    double time;
-  };
-  void load(const Kept& kept, Simulation& simulation);
+  void load(const GoodState& kept, Simulation& simulation);
 
   double memory_;
-  std::deque<Kept> kept_;          ///< oldest first
+  std::deque<GoodState> kept_;          ///< oldest first
   int tries_ = 0, recoveries_ = 0;
   double step_factor_ = 1.0;
   double clear_after_ = 0.0;       ///< s: past this time the trouble lies behind

@@ -75,7 +75,7 @@ class Run {
     if (resumed) {
       earlier_seconds_ = saved_ = resumed->wall_seconds;
       guard_ = resumed->watch.guard;
-      recovery_.take_over(resumed->watch);
+      recovery_.take_over(resumed->watch, resumed->good);
       description_["resumed_at_step"] = resumed->step;
       tell_earlier_frames();
     }
@@ -137,7 +137,7 @@ class Run {
   }
 
   int steps() {
-    recovery_.keep(simulation(), guard_);  // the start itself: there is nothing before it
+    if (!recovery_.has_state()) recovery_.keep(simulation(), guard_);  // the start itself
     while (simulation().step_count() == 0 && !put_out()) {}
     cli::Progress progress("simulating");
     const double first = simulation().time(), end = session_.times.end;
@@ -165,7 +165,7 @@ class Run {
   /// All frames up to now are on disk before the checkpoint that follows them.
   void save() {
     output_.drain();
-    checkpoint_ = checkpoints_.write(simulation(), recovery_.watch(guard_), wall_seconds());
+    checkpoint_ = checkpoints_.write(simulation(), guard_, recovery_, wall_seconds());
     saved_ = wall_seconds();
     cli::detail("checkpoint at t = " + number_text(checkpoint_->time) + " s: " + checkpoint_->path);
   }
@@ -249,7 +249,7 @@ class Run {
       recovery_.restore_newest(simulation());
       find_place(offender);
       report["good"] = write_failure_state(run, "good", frame_of(session_));
-      report["good"]["checkpoint"] = checkpoints_.write(simulation(), recovery_.watch(guard_), wall_seconds()).path;
+      report["good"]["checkpoint"] = checkpoints_.write(simulation(), guard_, recovery_, wall_seconds()).path;
     }
     const std::string message = trouble_text(trouble, offender) + tries + ". What to change: " + trouble.remedy + ". " + run +
                                 "/failure holds this state" + (recovery_.has_state() ? " and the last good one" : "");
