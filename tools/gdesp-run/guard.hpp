@@ -31,13 +31,14 @@ std::string moment_text(std::int64_t step, double time);
 /// walls hold while grains rebound from them is in no sum.
 class EnergyWatch {
  public:
+  EnergyWatch() = default;
   /// `spacing_energy`: g dp (m2/s2).
-  explicit EnergyWatch(double spacing_energy = 0.0) : spacing_energy_(spacing_energy) {}
+  explicit EnergyWatch(double spacing_energy) : spacing_energy_(spacing_energy) {}
   /// The rise above the lowest sum so far, over what there was to spend.
   double rise(const Diagnostics& d);
 
  private:
-  double spacing_energy_, least_ = std::numeric_limits<double>::infinity(), start_ = 0.0, highest_potential_ = 0.0, freed_ = 0.0;
+  double spacing_energy_ = 0.0, least_ = std::numeric_limits<double>::infinity(), start_ = 0.0, highest_potential_ = 0.0, freed_ = 0.0;
   double before_ = 0.0, rise_ = 0.0;
   std::int64_t lost_ = -1, step_ = 0;
 };
@@ -57,7 +58,8 @@ class Guard {
   static constexpr double energy_warning = 0.05, energy_limit = 0.5;    ///< of what there was to spend
   static constexpr double step_limit = 1.0e-3;                           ///< of the acoustic step
 
-  explicit Guard(const GuardSetup& setup = {}) : setup_(setup), energy_(setup.spacing_energy) {}
+  Guard() = default;
+  explicit Guard(const GuardSetup& setup) : setup_(setup), energy_(setup.spacing_energy) {}
 
   /// After every step; costs a few comparisons.
   std::optional<Trouble> after_step(const Simulation& simulation) const;
