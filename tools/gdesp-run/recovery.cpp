@@ -109,7 +109,7 @@ nlohmann::ordered_json Recovery::go_back(Simulation& simulation, Guard& guard, c
   step_factor_ *= 0.5;
   simulation.set_caution(step_factor_, outran_its_sound(trouble.cause) ? sound_factor * sound : std::max(sound, simulation.sound_speed()));
   clear_after_ = trouble.time + (trouble.time - from.time);
-  return {{"t", from.time}, {"step", from.step}, {"event", "recovery"}, {"trouble_t", trouble.time}, {"trouble_step", trouble.step},
+  return {{"t", from.time}, {"step", from.step}, {"event", "recovery"}, {"recovery", recoveries_}, {"trouble_t", trouble.time}, {"trouble_step", trouble.step},
           {"cause", trouble.what}, {"try", tries_}, {"step_factor", step_factor_}, {"sound_speed", simulation.sound_speed()}};
 }
 

@@ -22,8 +22,8 @@ constexpr std::size_t largest_log = std::size_t{4} << 30, largest_json = std::si
 
 ordered_json vector_json(const Vec3d& v) { return ordered_json::array({v.x, v.y, v.z}); }
 
-/// The lines of a log up to and with `last_step`.
-std::string kept_lines(const std::string& path, std::int64_t last_step) {
+/// The lines of a log up to and with `last_step`, and up to recovery number `recoveries`.
+std::string kept_lines(const std::string& path, std::int64_t last_step, int recoveries) {
   std::error_code ignored;
   if (!fs::exists(path, ignored)) return {};
   const std::string text = read_text_file(path, largest_log);
@@ -32,6 +32,7 @@ std::string kept_lines(const std::string& path, std::int64_t last_step) {
     const ordered_json line = ordered_json::parse(text.begin() + static_cast<std::ptrdiff_t>(end),
                                                   text.begin() + static_cast<std::ptrdiff_t>(newline), nullptr, false);
     if (!line.is_object() || line.value("step", std::int64_t{-1}) < 0 || line["step"] > last_step) break;
+    if (line.value("recovery", 0) > recoveries) break;
     end = newline + 1;
   }
   return text.substr(0, end);
@@ -60,9 +61,9 @@ ordered_json diagnostics_record(const Diagnostics& d) {
           {"awake_share", d.awake_share}};
 }
 
-DiagnosticsLog::DiagnosticsLog(const std::string& run_folder, std::int64_t last_step)
+DiagnosticsLog::DiagnosticsLog(const std::string& run_folder, std::int64_t last_step, int recoveries)
     : path_(run_folder + "/log.ndjson"), last_step_(last_step) {
-  write_text_file(path_, last_step >= 0 ? kept_lines(path_, last_step) : std::string());
+  write_text_file(path_, last_step >= 0 ? kept_lines(path_, last_step, recoveries) : std::string());
   open_at_end();
 }
 
@@ -94,7 +95,7 @@ void DiagnosticsLog::add(const Diagnostics& d) {
 void DiagnosticsLog::go_back(std::int64_t step, const ordered_json& record) {
   ::close(descriptor_);
   descriptor_ = -1;
-  write_text_file(path_, kept_lines(path_, step));
+  write_text_file(path_, kept_lines(path_, step, record.value("recovery", 1) - 1));
   open_at_end();
   put(record.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n");
   last_step_ = step;

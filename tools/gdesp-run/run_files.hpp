@@ -17,13 +17,15 @@ nlohmann::ordered_json diagnostics_record(const Diagnostics& d);
 /// Appends whole lines to log.ndjson.
 class DiagnosticsLog {
  public:
-  /// A new log; or, from `last_step` >= 0 on, one that goes on: later and torn lines are dropped.
-  DiagnosticsLog(const std::string& run_folder, std::int64_t last_step);
+  /// A new log; or, from `last_step` >= 0 on, one that goes on: later and torn lines are dropped, and all that follow a
+  /// recovery beyond the first `recoveries` of them (it has not happened yet).
+  DiagnosticsLog(const std::string& run_folder, std::int64_t last_step, int recoveries = 0);
   ~DiagnosticsLog();
   DiagnosticsLog(const DiagnosticsLog&) = delete;
   DiagnosticsLog& operator=(const DiagnosticsLog&) = delete;
   void add(const Diagnostics& d);
-  /// Drops what is later than `step` and adds the record of what made the run go back there.
+  /// Drops what is later than `step` and adds the record of the recovery that made the run go back there (its member
+  /// "recovery" counts them from 1).
   void go_back(std::int64_t step, const nlohmann::ordered_json& record);
   /// Everything added so far is with the operating system.
   std::int64_t last_step() const { return last_step_; }

@@ -69,7 +69,7 @@ class Run {
   Run(Session session, const std::optional<Checkpoint>& resumed)
       : session_(std::move(session)), terminal_(cli::stdout_is_terminal()),
         output_(open_folder(session_), [this](const FramePaths& paths) { frame_written(paths); }),
-        log_(session_.options.run_folder, session_.simulation->step_count() > 0 ? session_.simulation->step_count() : -1),
+        log_(session_.options.run_folder, resumed ? resumed->step : -1, resumed ? resumed->watch.recoveries : 0),
         guard_(guard_setup(session_)), recovery_(good_states_share * available_memory("cpu")),
         checkpoints_(session_.options.run_folder, session_.fingerprint), description_(run_description(session_)) {
     if (resumed) {
