@@ -29,6 +29,8 @@ class Progress {
  public:
   explicit Progress(std::string what);
   ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
   void update(double fraction, const std::string& note = {});
   void done(const std::string& note = {});
 
