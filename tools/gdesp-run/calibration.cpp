@@ -26,6 +26,7 @@ SimulationInput empty_like(const SimulationInput& scene, double size, double mar
   input.fluid_parameters.activity.sleep = false;
   input.contact = scene.contact;
   input.time = scene.time;
+  input.time.fixed_step = input.time.cfl = 0.0;  // the cost of a step, not its length: it must hold
   input.lower = {-margin, scene.fluid_parameters.dimensions == 2 ? -scene.fluid_parameters.dp : -margin, -margin};
   input.upper = {size + margin, scene.fluid_parameters.dimensions == 2 ? scene.fluid_parameters.dp : size + margin, size + margin};
   return input;
