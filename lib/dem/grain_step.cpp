@@ -234,17 +234,17 @@ struct GrainStep {
 
 template <class Exec, class Law>
 void run_grain_step(const Exec& exec, const ContactLaws<Law>& laws, const GrainStepView& view, Index slots,
-                    exec::Largest* measure) {
+                    const exec::Gate& gate, exec::Largest* measure) {
   if (view.contacts.rolling) {
-    exec::row_pass(exec, "dem::step", slots, GrainStep<Law, true>{laws, view}, measure);
+    exec::row_pass(exec, "dem::step", slots, GrainStep<Law, true>{laws, view}, gate, measure);
   } else {
-    exec::row_pass(exec, "dem::step", slots, GrainStep<Law, false>{laws, view}, measure);
+    exec::row_pass(exec, "dem::step", slots, GrainStep<Law, false>{laws, view}, gate, measure);
   }
 }
 
 template void run_grain_step(const exec::CompiledBackend&, const ContactLaws<HertzMindlin>&, const GrainStepView&,
-                             Index, exec::Largest*);
+                             Index, const exec::Gate&, exec::Largest*);
 template void run_grain_step(const exec::CompiledBackend&, const ContactLaws<LinearSpringDashpot>&,
-                             const GrainStepView&, Index, exec::Largest*);
+                             const GrainStepView&, Index, const exec::Gate&, exec::Largest*);
 
 }  // namespace gdesp::dem

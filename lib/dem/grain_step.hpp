@@ -28,9 +28,9 @@ struct GrainStepView {
 /// (m2/s2), [2] largest overlap / diameter, [3] 1 when a velocity is not a number.
 enum StepMeasure { measure_displacement2 = 0, measure_speed2 = 1, measure_overlap = 2, measure_broken = 3 };
 
-/// Runs one sub-step with the law; `measure` gets one Largest.
+/// Runs one sub-step with the law, unless the gate is closed; `measure` gets one Largest.
 template <class Exec, class Law>
 void run_grain_step(const Exec& exec, const ContactLaws<Law>& laws, const GrainStepView& view, Index slots,
-                    exec::Largest* measure);
+                    const exec::Gate& gate, exec::Largest* measure);
 
 }  // namespace gdesp::dem

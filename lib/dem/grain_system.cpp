@@ -14,6 +14,8 @@
 namespace gdesp::dem {
 namespace {
 
+constexpr int largest_batch = 32;   // sub-steps given before their measures are looked at
+
 template <class T>
 struct Gather {
   const Index* source;
@@ -141,7 +143,7 @@ GrainSystem<Exec>::GrainSystem(const Exec& exec, const Domain& domain, const Gra
   spin_.assign(state.spin);
   quiet_until_.assign(std::vector<float>(state.record.size(), 0.0f));
   speed2_ = state.speed2;
-  measure_.resize_discard(2);
+  measure_.resize_discard(2 * largest_batch);
   list_now();
 }
 
@@ -200,8 +202,7 @@ double GrainSystem<Exec>::largest_body_move(const std::vector<BodyMoment>& momen
 
 template <class Exec>
 bool GrainSystem<Exec>::stale(const std::vector<BodyMoment>& moments) const {
-  const double half = 0.5 * skin_;
-  return must_rebuild_ || static_cast<double>(moved2_) > half * half || largest_body_move(moments) > half;
+  return must_rebuild_ || moved2_ > largest_move2() || largest_body_move(moments) > 0.5 * skin_;
 }
 
 template <class Exec>
@@ -326,29 +327,63 @@ void GrainSystem<Exec>::clear_drag_impulse() {
   drag_impulse_.fill_bytes(0);
 }
 
+// Sub-steps are given in batches and their measures read once a batch. The gate of a sub-step is the measure of the one
+// before: when that used the skin up, the rest of the batch is left out, as if each had been waited for.
 template <class Exec>
 template <class Law>
-void GrainSystem<Exec>::run(const ContactLaws<Law>& pair, const ContactLaws<Law>& wall,
-                            const std::vector<BodyPose>& poses, const HalfSteps& half) {
+void GrainSystem<Exec>::run(const ContactLaws<Law>& pair, const ContactLaws<Law>& wall, const HalfSteps& half,
+                            int in_batch) {
   const float inertia = inertia_factor(domain_.dimensions);
+  exec::Largest* measure = measure_.data() + 2 * in_batch;
+  exec::Gate gate;
+  if (in_batch > 0) gate = {measure - 1, largest_move2()};
   if (walls_.grains() > 0) {
-    walls_.step(wall, {now_.data(), start_.data(), half, inertia}, poses, measure_.data());
-    overlap_ = std::max(overlap_, measure_.read(0).value[measure_overlap]);
+    walls_.step(wall, {now_.data(), start_.data(), half, inertia}, in_batch, gate, measure);
   }
   GrainStepView view{contacts_.view(), position_unit(domain_), now_.data(), next_.data(), start_.data(),
                      velocity_.data(), spin_.data(), walls_.forces(), fluid_, static_cast<Vec3f>(gravity_), inertia, half};
-  run_grain_step(exec_, pair, view, slots_, measure_.data() + 1);
+  run_grain_step(exec_, pair, view, slots_, gate, measure + 1);
   now_.swap(next_);
-  const exec::Largest measured = measure_.read(1);
-  moved2_ = measured.value[measure_displacement2];
-  speed2_ = measured.value[measure_speed2];
-  overlap_ = std::max(overlap_, measured.value[measure_overlap]);
-  if (measured.value[measure_broken] > 0.0f) {
-    throw Error(ErrorKind::numerical, "grains: a speed of more than 1e6 m/s, or not a number, at t = " +
-                                          std::to_string(time_) + " s, sub-step " + std::to_string(substeps_) +
-                                          " of " + std::to_string(2.0 * half.after) +
-                                          " s; a smaller grain time step or softer initial packing is needed");
+}
+
+// How many sub-steps from `first` on the bodies allow with the lists at hand, one at least; sets their poses.
+template <class Exec>
+int GrainSystem<Exec>::foreseen_substeps(double dt, int first, int substeps) {
+  const int most = std::min(substeps - first, largest_batch);
+  std::vector<BodyPose> poses;
+  int count = 0;
+  for (; count < most; ++count) {
+    const std::vector<BodyMoment> moment = moments(static_cast<double>(first + count) / substeps, dt);
+    if (count > 0 && largest_body_move(moment) > 0.5 * skin_) break;
+    for (std::size_t b = 0; b < moment.size(); ++b)
+      poses.push_back(pose_since(listed_poses_[b], body_state(b), moment[b]));
   }
+  walls_.set_poses(poses);
+  return count;
+}
+
+// Looks at what a batch found; returns how many of its sub-steps were taken.
+template <class Exec>
+int GrainSystem<Exec>::take_measures(int given, double h) {
+  const std::vector<exec::Largest> measure = measure_.to_host();
+  int taken = 0;
+  while (taken < given) {
+    const exec::Largest& grains = measure[static_cast<std::size_t>(2 * taken + 1)];
+    if (walls_.grains() > 0) overlap_ = std::max(overlap_, measure[static_cast<std::size_t>(2 * taken)].value[measure_overlap]);
+    moved2_ = grains.value[measure_displacement2];
+    speed2_ = grains.value[measure_speed2];
+    overlap_ = std::max(overlap_, grains.value[measure_overlap]);
+    if (grains.value[measure_broken] > 0.0f) {
+      throw Error(ErrorKind::numerical, "grains: a speed of more than 1e6 m/s, or not a number, at t = " +
+                                            std::to_string(time_) + " s, sub-step " + std::to_string(substeps_ + taken) +
+                                            " of " + std::to_string(h) +
+                                            " s; a smaller grain time step or softer initial packing is needed");
+    }
+    ++taken;
+    if (moved2_ > largest_move2()) break;
+  }
+  if ((given - taken) % 2 != 0) now_.swap(next_);  // those left out have swapped, and written nothing
+  return taken;
 }
 
 template <class Exec>
@@ -361,19 +396,23 @@ void GrainSystem<Exec>::advance(double dt, int substeps) {
   }
   const double h = dt / substeps;
   kicked_ = half_before_ + (substeps - 0.5) * h;
-  for (int k = 0; k < substeps; ++k) {
+  for (int k = 0; k < substeps;) {
     const std::vector<BodyMoment> now = moments(static_cast<double>(k) / substeps, dt);
     if (stale(now)) rebuild(now, !fluid_.drag_coefficient);  // sorting costs a tenth of listing
-    std::vector<BodyPose> poses;
-    for (std::size_t b = 0; b < now.size(); ++b) poses.push_back(pose_since(listed_poses_[b], body_state(b), now[b]));
-    const HalfSteps half{static_cast<float>(half_before_), static_cast<float>(0.5 * h)};
-    if (laws_.kind == ContactLawKind::hertz) {
-      run(laws_.hertz, laws_.hertz_wall, poses, half);
-    } else {
-      run(laws_.linear, laws_.linear_wall, poses, half);
+    const int batch = foreseen_substeps(dt, k, substeps);
+    double half_before = half_before_;
+    for (int b = 0; b < batch; ++b, half_before = 0.5 * h) {
+      const HalfSteps half{static_cast<float>(half_before), static_cast<float>(0.5 * h)};
+      if (laws_.kind == ContactLawKind::hertz) {
+        run(laws_.hertz, laws_.hertz_wall, half, b);
+      } else {
+        run(laws_.linear, laws_.linear_wall, half, b);
+      }
     }
+    const int taken = take_measures(batch, h);
     half_before_ = 0.5 * h;
-    ++substeps_;
+    substeps_ += taken;
+    k += taken;
   }
   time_ += dt;
   synchronize_positions();

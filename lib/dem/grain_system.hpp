@@ -108,6 +108,7 @@ class GrainSystem {
   void apply_release();
   double moved_since_sorting() const;
   bool stale(const std::vector<BodyMoment>& moments) const;
+  float largest_move2() const { return static_cast<float>(0.25 * skin_ * skin_); }   ///< m2, half the skin's square
   template <class T>
   void gather(Array<T, Exec>& values, Array<T, Exec>& scratch, const T& padding);
   // Bodies; number 0 are the walls at rest.
@@ -117,9 +118,10 @@ class GrainSystem {
   std::vector<BodyMoment> moments(double share, double duration) const;
   BodyMotionState body_state(std::size_t number) const;
   // Sub-steps and sums.
+  int foreseen_substeps(double dt, int first, int substeps);
   template <class Law>
-  void run(const ContactLaws<Law>& pair, const ContactLaws<Law>& wall, const std::vector<BodyPose>& poses,
-           const HalfSteps& half);
+  void run(const ContactLaws<Law>& pair, const ContactLaws<Law>& wall, const HalfSteps& half, int in_batch);
+  int take_measures(int given, double h);
   template <class Law>
   GrainSums sums_with(const ContactLaws<Law>& pair);
   void restore_lists(const std::vector<RowRange>& range, const std::vector<ContactRow>& rows,
@@ -161,7 +163,7 @@ class GrainSystem {
   Array<float, Exec> quiet_until_;                ///< odometer reading up to which a grain is far from walls
   FluidOnGrains fluid_;                           ///< pointers of the caller, and drag_impulse_
   Array<Vec3d, Exec> drag_impulse_;
-  Array<exec::Largest, Exec> measure_;            ///< of the walls, of the grains
+  Array<exec::Largest, Exec> measure_;            ///< two a sub-step of a batch: of the walls, of the grains
   Array<std::int32_t, Exec> held_;
 
   Array<FixedPosition, Exec> scratch_position_;

@@ -309,15 +309,20 @@ void WallContacts<Exec>::build(const ClusterSet<Exec>& set, const Array<FixedPos
 }
 
 template <class Exec>
+void WallContacts<Exec>::set_poses(const std::vector<BodyPose>& poses) {
+  if (bodies() > 1 || pose_.empty()) pose_.assign(poses);  // walls at rest stay where they are
+}
+
+template <class Exec>
 template <class Law>
-void WallContacts<Exec>::step(const ContactLaws<Law>& laws, const WallMotion& motion, const std::vector<BodyPose>& poses,
-                              exec::Largest* measure) {
-  if (poses.size() > 1 || pose_.empty()) pose_.assign(poses);  // walls at rest stay where they are
+void WallContacts<Exec>::step(const ContactLaws<Law>& laws, const WallMotion& motion, int sub_step,
+                              const exec::Gate& gate, exec::Largest* measure) {
+  const Index set = bodies() > 1 ? sub_step * static_cast<Index>(bodies()) : 0;
   run_wall_step(exec_, laws,
                 WallStepView{mesh_view(), position_unit(domain_), motion.now, motion.start, slot_.data(),
-                             row_begin_.data(), rows_.data(), gaps_.data(), pose_.data(), history_.data(),
+                             row_begin_.data(), rows_.data(), gaps_.data(), pose_.data() + set, history_.data(),
                              force_.data(), impulse_.data(), impulse_unit_, motion.inertia_factor, motion.half},
-                grains_, measure);
+                grains_, gate, measure);
 }
 
 template <class Exec>
@@ -334,8 +339,8 @@ std::vector<BodyImpulse> WallContacts<Exec>::take_impulses() {
 
 template class WallContacts<exec::CompiledBackend>;
 template void WallContacts<exec::CompiledBackend>::step(const ContactLaws<HertzMindlin>&, const WallMotion&,
-                                                        const std::vector<BodyPose>&, exec::Largest*);
+                                                        int, const exec::Gate&, exec::Largest*);
 template void WallContacts<exec::CompiledBackend>::step(const ContactLaws<LinearSpringDashpot>&, const WallMotion&,
-                                                        const std::vector<BodyPose>&, exec::Largest*);
+                                                        int, const exec::Gate&, exec::Largest*);
 
 }  // namespace gdesp::dem

@@ -47,9 +47,11 @@ class WallContacts {
   /// `first`: grains whose centre lies behind a face, less than a radius deep, count as come from its front.
   void build(const ClusterSet<Exec>& set, const Array<FixedPosition, Exec>& position, GrainRecord* records,
              const std::vector<ListedPose>& poses, const WallReach& reach, bool first);
-  /// Forces at time n; poses by body number.
+  /// Poses for the calls of step() that follow: by body number, one such set a sub-step.
+  void set_poses(const std::vector<BodyPose>& poses);
+  /// Forces at time n, with poses of set `sub_step`, unless the gate is closed.
   template <class Law>
-  void step(const ContactLaws<Law>& laws, const WallMotion& motion, const std::vector<BodyPose>& poses,
+  void step(const ContactLaws<Law>& laws, const WallMotion& motion, int sub_step, const exec::Gate& gate,
             exec::Largest* measure);
   const WallForce* forces() const { return force_.data(); }
 
@@ -90,6 +92,6 @@ class WallContacts {
 /// Runs the pass over grains near walls.
 template <class Exec, class Law>
 void run_wall_step(const Exec& exec, const ContactLaws<Law>& laws, const WallStepView& view, Index grains,
-                   exec::Largest* measure);
+                   const exec::Gate& gate, exec::Largest* measure);
 
 }  // namespace gdesp::dem

@@ -305,13 +305,14 @@ struct WallStep {
 
 template <class Exec, class Law>
 void run_wall_step(const Exec& exec, const ContactLaws<Law>& laws, const WallStepView& view, Index grains,
-                   exec::Largest* measure) {
-  exec::row_pass(exec, "dem::walls", grains, WallStep<Law>{laws, view}, measure);
+                   const exec::Gate& gate, exec::Largest* measure) {
+  exec::row_pass(exec, "dem::walls", grains, WallStep<Law>{laws, view}, gate, measure);
 }
 
 template void run_wall_step(const exec::CompiledBackend&, const ContactLaws<HertzMindlin>&, const WallStepView&, Index,
-                            exec::Largest*);
+                            const exec::Gate&, exec::Largest*);
 template void run_wall_step(const exec::CompiledBackend&, const ContactLaws<LinearSpringDashpot>&,
-                            const WallStepView&, Index, exec::Largest*);
+                            const WallStepView&, Index, const exec::Gate&,
+                            exec::Largest*);
 
 }  // namespace gdesp::dem

@@ -166,6 +166,16 @@ struct Largest {
   float value[4] = {0.0f, 0.0f, 0.0f, 0.0f};
 };
 
+/// Leaves a row pass out when an earlier one found value[0] > limit: several passes can then be given at once, and what
+/// the earlier ones found is looked at afterwards (on a GPU: one wait instead of one a pass). A pass that is left out
+/// copies `after` to its own result, so that the ones behind it are left out too.
+struct Gate {
+  const Largest* after = nullptr;
+  float limit = 0.0f;
+
+  GDESP_HD bool closed() const { return after && after->value[0] > limit; }
+};
+
 /// Takes `amount` places from a counter that all bodies share; returns the first.
 GDESP_HD inline std::uint32_t add_to_counter(std::uint32_t* counter, std::uint32_t amount) {
 #if defined(__CUDA_ARCH__)

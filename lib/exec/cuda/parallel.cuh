@@ -109,7 +109,12 @@ __global__ void __launch_bounds__(block_threads) run_pair_pass(const Body body, 
 }
 
 template <class Body>
-__global__ void __launch_bounds__(block_threads) run_row_pass(const Body body, Index rows, Largest* largest) {
+__global__ void __launch_bounds__(block_threads) run_row_pass(const Body body, Index rows, const Gate gate,
+                                                              Largest* largest) {
+  if (gate.closed()) {
+    if (blockIdx.x == 0 && threadIdx.x == 0) *largest = *gate.after;
+    return;
+  }
   const std::int64_t thread = static_cast<std::int64_t>(blockIdx.x) * blockDim.x + threadIdx.x;
   const Index r = static_cast<Index>(thread >> 3);
   const int in_warp = threadIdx.x & 31;
@@ -151,12 +156,12 @@ void pair_pass(const Cuda& exec, const char* name, Index clusters, const Body& b
 }
 
 template <class Body>
-void row_pass(const Cuda& exec, const char* name, Index rows, const Body& body, Largest* largest) {
+void row_pass(const Cuda& exec, const char* name, Index rows, const Body& body, const Gate& gate, Largest* largest) {
   check(cudaMemsetAsync(largest, 0, sizeof(Largest), detail::stream(exec)), name);
-  if (rows <= 0) return;
-  const std::int64_t threads = static_cast<std::int64_t>(rows) * 8;
+  // At least one block: a pass without rows still hands a closed gate on.
+  const std::int64_t threads = rows > 0 ? static_cast<std::int64_t>(rows) * 8 : 1;
   const unsigned blocks = static_cast<unsigned>((threads + detail::block_threads - 1) / detail::block_threads);
-  detail::run_row_pass<<<blocks, detail::block_threads, 0, detail::stream(exec)>>>(body, rows, largest);
+  detail::run_row_pass<<<blocks, detail::block_threads, 0, detail::stream(exec)>>>(body, rows, gate, largest);
   check(cudaGetLastError(), name);
 }
 
