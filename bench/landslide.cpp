@@ -14,6 +14,7 @@
 
 #include "core/error.hpp"
 #include "exec/array.hpp"
+#include "exec/backend.hpp"
 #include "simulation/simulation.hpp"
 
 namespace gdesp {

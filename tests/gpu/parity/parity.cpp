@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "exec/array.hpp"
+#include "exec/backend.hpp"
 #include "parity_scenes.hpp"
 #include "simulation/simulation.hpp"
 
