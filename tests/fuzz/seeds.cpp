@@ -16,6 +16,7 @@
 #include "geometry/triangle_mesh.hpp"
 #include "io/case.hpp"
 #include "io/frame.hpp"
+#include "recovery.hpp"
 #include "support/tank.hpp"
 #include "support/temp_folder.hpp"
 
@@ -148,8 +149,7 @@ SimulationInput small_tank() {
 Seeds checkpoint_seeds(const std::string& folder) {
   const std::unique_ptr<Simulation> simulation = make_simulation(small_tank(), "cpu");
   for (int k = 0; k < 3; ++k) simulation->step(1.0);
-  tool::Watch watch;
-  const tool::Checkpoint c = tool::CheckpointFiles(folder + "/seed.run", checkpoint_fingerprint).write(*simulation, watch, 1.0);
+  const tool::Checkpoint c = tool::CheckpointFiles(folder + "/seed.run", checkpoint_fingerprint).write(*simulation, {}, tool::Recovery(0.0), 1.0);
   return {{"a.state", test::text_of_file(c.path)}};
 }
 
