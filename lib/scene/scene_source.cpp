@@ -204,6 +204,7 @@ void forget_old_preset(toml::table& root) {
   drop("numerics", "smoothing_ratio", old.numerics.smoothing_ratio);
   drop("numerics", "artificial_viscosity", old.numerics.artificial_viscosity);
   drop("numerics", "density_diffusion", old.numerics.density_diffusion);
+  drop("numerics", "tension", old.numerics.tension);
   drop("numerics", "multirate", old.numerics.multirate);
   drop("coupling", "drag", old.coupling.drag);
   drop("coupling", "added_mass", old.coupling.added_mass);

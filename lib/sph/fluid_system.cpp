@@ -89,22 +89,6 @@ std::uint64_t column_key(const Vec3d& r, double width) {
   return (static_cast<std::uint64_t>(ix) << 32) ^ (static_cast<std::uint64_t>(iy) & 0xffffffffu);
 }
 
-// Head (in dp) by which still water on the lattice stands higher than its particles say: above the top layer the sum of
-// the pressure gradient lacks the layers beyond the first, sum (m - 1) g_m over 2 sum g_m, g_m the weight of layer m.
-// Water started without it begins with a jolt.
-double lattice_surface_head(double h_over_dp, int dimensions) {
-  const int reach = static_cast<int>(2.0 * h_over_dp) + 1, reach_y = dimensions == 2 ? 0 : reach;
-  double lacking = 0.0, whole = 0.0;
-  for (int x = -reach; x <= reach; ++x)
-    for (int y = -reach_y; y <= reach_y; ++y)
-      for (int m = 1; m <= reach; ++m) {
-        const double t = std::max(0.0, 1.0 - std::sqrt(static_cast<double>(x * x + y * y + m * m)) / (2.0 * h_over_dp));
-        whole += t * t * t * m;
-        lacking += t * t * t * m * (m - 1);
-      }
-  return 0.5 * lacking / whole;
-}
-
 // Hydrostatic D under the highest water of each column of width dp.
 std::vector<float> hydrostatic_density(const FluidTable& fluid, const FluidParameters& p) {
   std::unordered_map<std::uint64_t, double> top;
@@ -114,9 +98,8 @@ std::vector<float> hydrostatic_density(const FluidTable& fluid, const FluidParam
   }
   std::vector<float> density(fluid.position.size());
   const double c2 = p.sound_speed * p.sound_speed;
-  const double surface = 0.5 + (p.paper_form ? 0.0 : lattice_surface_head(p.h / p.dp, p.dimensions));
   for (std::size_t i = 0; i < density.size(); ++i) {
-    const double head = top[column_key(fluid.position[i], p.dp)] + surface * p.dp - fluid.position[i].z;
+    const double head = top[column_key(fluid.position[i], p.dp)] + 0.5 * p.dp - fluid.position[i].z;
     density[i] = tait_density(static_cast<float>(-p.gravity.z * head / c2));
   }
   return density;
