@@ -87,6 +87,11 @@ Body prescribed_slide(const Slide& slide) {
   return out;
 }
 
+void hold(Body& body, double release_at, const std::vector<std::string>& fixed) {
+  body.release_at = release_at;
+  for (const std::string& motion : fixed) body.fixed[motion == "rotation" ? 3 : motion[0] - 'x'] = true;
+}
+
 Body free_body(const std::string& name, const SolidPart& part, double density, const Vec3d& velocity, int dimensions) {
   MassProperties m = mass_properties(part.mesh);
   if (!(m.volume > 0.0)) throw Error(ErrorKind::input, part.name + ": encloses no volume");

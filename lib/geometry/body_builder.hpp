@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "geometry/scene_parts.hpp"
 #include "particles/particle_tables.hpp"
@@ -18,6 +19,9 @@ PrescribedMotion constant_motion(const Vec3d& velocity, double start, double sto
 
 Body moving_body(const MovingBody& body, double gravity);
 Body prescribed_slide(const Slide& slide);
+
+/// What holds a free body: until `release_at` (s), and the motions that it cannot make (x, y, z, rotation).
+void hold(Body& body, double release_at, const std::vector<std::string>& fixed);
 
 /// A free body from its closed mesh and density: mass, centre, inertia. In two dimensions per metre of width.
 /// Throws Error(input) when the mesh encloses nothing.

@@ -188,6 +188,7 @@ SlideReport add_solid_slide(const Layout& layout, std::size_t k, Case& out, Note
   }
   Body body = slide.kind == "prescribed" ? prescribed_slide(slide)
                                          : free_body(slide.name, part, slide.density, slide.velocity, layout.scene.dimensions);
+  if (slide.kind == "rigid") hold(body, slide.release_at, slide.fixed);
   add_body(layout, part, std::move(body), out);
   return report;
 }
@@ -210,7 +211,9 @@ void add_bodies_and_slides(const Layout& layout, Case& out, BuildReport& report,
   }
   for (std::size_t k = 0; k < layout.parts.floating.size(); ++k) {
     const FloatingBody& f = layout.scene.floating[k];
-    add_body(layout, layout.parts.floating[k], free_body(f.name, layout.parts.floating[k], f.density, f.velocity, layout.scene.dimensions), out);
+    Body body = free_body(f.name, layout.parts.floating[k], f.density, f.velocity, layout.scene.dimensions);
+    hold(body, f.release_at, f.fixed);
+    add_body(layout, layout.parts.floating[k], std::move(body), out);
   }
 }
 

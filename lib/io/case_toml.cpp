@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/case_toml.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -31,7 +32,10 @@ std::string body_table(const Body& body) {
   out += "angular_velocity = " + text_of(body.angular_velocity) + "\n";
   out += "mass = " + toml_number(body.mass) + "\n";
   out += "inertia = " + text_of(body.inertia, 9) + "\n";
-  out += "remove_at = " + toml_number(body.motion.remove_at) + "\n";
+  out += "release_at = " + toml_number(body.release_at) + "\n";
+  out += "fixed = [";  // along x, y, z; rotation
+  for (int k = 0; k < 4; ++k) out += std::string(k ? ", " : "") + (body.fixed[k] ? "true" : "false");
+  out += "]\nremove_at = " + toml_number(body.motion.remove_at) + "\n";
   out += "motion = [";  // rows of t, dx, dy, dz
   for (std::size_t i = 0; i < body.motion.time.size(); ++i) {
     const Vec3d& d = body.motion.displacement[i];
@@ -125,6 +129,15 @@ PrescribedMotion motion_of(const Values& values) {
   return motion;
 }
 
+void read_hold(const Values& values, Body& body) {
+  body.release_at = values.number("release_at", 0.0);
+  const json* fixed = values.find("fixed");
+  if (!fixed) return;
+  const auto is_truth = [](const json& one) { return one.is_boolean(); };
+  if (!fixed->is_array() || fixed->size() != 4 || !std::all_of(fixed->begin(), fixed->end(), is_truth)) values.fail("fixed", "4 of true, false");
+  for (std::size_t k = 0; k < 4; ++k) body.fixed[k] = (*fixed)[k].get<bool>();
+}
+
 Body body_of(const Values& values) {
   Body body;
   body.name = values.text("name");
@@ -135,6 +148,7 @@ Body body_of(const Values& values) {
   body.centre = values.vector("centre");
   body.velocity = values.vector("velocity");
   body.angular_velocity = values.vector("angular_velocity");
+  read_hold(values, body);
   body.mass = values.number("mass", 0.0);
   const json* inertia = values.find("inertia");
   if (!inertia) values.fail("inertia", "9 finite numbers");

@@ -12,7 +12,8 @@
 
 namespace gdesp {
 
-struct BodyState { Vec3d centre, velocity, angular_velocity; double orientation[4] = {1, 0, 0, 0}; };
+/// `force` (N) and `torque` (N m, about the centre): on a free body, of all but gravity; on another, of the water.
+struct BodyState { Vec3d centre, velocity, angular_velocity; double orientation[4] = {1, 0, 0, 0}; Vec3d force, torque; };
 
 struct Frame {
   double time = 0.0;               ///< s

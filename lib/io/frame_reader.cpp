@@ -33,7 +33,8 @@ std::vector<BodyState> read_body_states(const std::string& path) {
   const std::unique_ptr<PointSource> source = open_points(path);
   const std::vector<double> centre = source->field("body_centre"), velocity = source->field("body_velocity"),
                             spin = source->field("body_angular_velocity"),
-                            orientation = source->field("body_orientation");
+                            orientation = source->field("body_orientation"), force = source->field("body_force"),
+                            torque = source->field("body_torque");
   const std::size_t bodies = centre.size() / 3;
   if (centre.size() != 3 * bodies || velocity.size() != 3 * bodies || spin.size() != 3 * bodies ||
       orientation.size() != 4 * bodies)
@@ -44,6 +45,8 @@ std::vector<BodyState> read_body_states(const std::string& path) {
     states[i].velocity = {velocity[3 * i], velocity[3 * i + 1], velocity[3 * i + 2]};
     states[i].angular_velocity = {spin[3 * i], spin[3 * i + 1], spin[3 * i + 2]};
     for (std::size_t k = 0; k < 4; ++k) states[i].orientation[k] = orientation[4 * i + k];
+    if (force.size() == 3 * bodies) states[i].force = {force[3 * i], force[3 * i + 1], force[3 * i + 2]};
+    if (torque.size() == 3 * bodies) states[i].torque = {torque[3 * i], torque[3 * i + 1], torque[3 * i + 2]};
   }
   return states;
 }

@@ -34,7 +34,7 @@ void clear_run(const fs::path& folder) {
 
 /// Body states side by side, as field data carries them.
 struct BodyColumns {
-  std::vector<double> centre, velocity, angular_velocity, orientation;
+  std::vector<double> centre, velocity, angular_velocity, orientation, force, torque;
   explicit BodyColumns(const std::vector<BodyState>& states) {
     const auto push = [](std::vector<double>& column, const Vec3d& v) { column.insert(column.end(), {v.x, v.y, v.z}); };
     for (const BodyState& s : states) {
@@ -42,6 +42,8 @@ struct BodyColumns {
       push(velocity, s.velocity);
       push(angular_velocity, s.angular_velocity);
       orientation.insert(orientation.end(), s.orientation, s.orientation + 4);
+      push(force, s.force);
+      push(torque, s.torque);
     }
   }
   void add_to(std::vector<VtpArray>& field) const {
@@ -52,6 +54,8 @@ struct BodyColumns {
     add("body_velocity", velocity, 3);
     add("body_angular_velocity", angular_velocity, 3);
     add("body_orientation", orientation, 4);
+    add("body_force", force, 3);
+    add("body_torque", torque, 3);
   }
 };
 

@@ -67,11 +67,13 @@ struct Body {
   std::string name;
   BodyKind kind = BodyKind::prescribed;
   PrescribedMotion motion;         ///< prescribed only
-  double mass = 0.0;               ///< kg; free only (as the next four)
+  double mass = 0.0;               ///< kg; free only (as what follows)
   Vec3d centre;                    ///< m, centre of mass
   Vec3d velocity;                  ///< m/s
   Vec3d angular_velocity;          ///< rad/s
   double inertia[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0};  ///< kg m2, about the centre, row by row
+  double release_at = 0.0;         ///< s; held in place before
+  bool fixed[4] = {false, false, false, false};     ///< no motion along x, y, z; no rotation
 };
 
 }  // namespace gdesp

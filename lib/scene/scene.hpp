@@ -85,6 +85,7 @@ struct Slide {
   std::uint64_t seed = 1;                 ///< of the packing
   double release_at = 0.0;                ///< s; held before
   Vec3d velocity;                         ///< m/s at the start
+  std::vector<std::string> fixed;         ///< rigid: "x", "y", "z", "rotation"
   std::string motion_csv;                 ///< prescribed: t,dx,dy,dz
 };
 
@@ -113,7 +114,9 @@ struct FloatingBody {
   std::string name;
   Shape shape;
   double density = 500.0;
+  double release_at = 0.0;                ///< s; held before
   Vec3d velocity;
+  std::vector<std::string> fixed;         ///< "x", "y", "z", "rotation"
 };
 
 /// Contact law of grains with each other, with walls and bodies.

@@ -8,6 +8,7 @@ namespace {
 using V = SceneVisitor;
 
 const std::vector<std::string> wall_conditions{"free-slip", "no-slip"};
+const std::vector<std::string> fixed_motions{"x", "y", "z", "rotation"};
 
 void describe_shape(V& v, Shape& s) {
   v.box({"box", "m", "shape: an axis-parallel box {lower = [x, y, z], upper = [x, y, z]}"}, s.box);
@@ -90,6 +91,7 @@ void describe_slide(V& v, Slide& s) {
   v.integer({"seed", "", "of the random packing"}, s.seed, 0, std::uint64_t{1} << 62);
   v.number({"release_at", "s", "held in place before"}, s.release_at, not_negative);
   v.vector({"velocity", "m/s", "velocity at the start"}, s.velocity);
+  v.choices({"fixed", "", "motions that the body cannot make (kind rigid)"}, s.fixed, fixed_motions);
   v.path({"motion_csv", "", "file of t,dx,dy,dz (kind prescribed: required)"}, s.motion_csv);
   v.tables("sieve", s.sieve, [](V& w, DiameterClass& c) {
     w.number({"diameter", "m", "grain diameter of this class", true}, c.diameter, positive);
@@ -127,7 +129,9 @@ void describe_floating(V& v, FloatingBody& body) {
   v.text({"name", "", "name in messages and results; default: floating1, floating2, ..."}, body.name);
   describe_shape(v, body.shape);
   v.number({"density", "kg/m3", "mean density of the body"}, body.density, positive);
+  v.number({"release_at", "s", "held in place before"}, body.release_at, not_negative);
   v.vector({"velocity", "m/s", "velocity at the start"}, body.velocity);
+  v.choices({"fixed", "", "motions that the body cannot make"}, body.fixed, fixed_motions);
 }
 
 void describe_contact(V& v, Contact& c) {

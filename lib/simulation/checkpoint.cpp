@@ -27,6 +27,8 @@ void CoupledSimulation<Exec>::archive(Archive& a) {
   std::int32_t bound = number_of_bound(limited_by_);
   a.mark("time");
   a(time_, last_dt_, density_lag_, step_factor_, acoustic_step_, step_, rebuilds_, extremes_, body_states_, bound);
+  a(rigid_time_, loads_, last_loads_);
+  if (rigid_) a(*rigid_);
   if constexpr (std::is_same_v<Archive, exec::StateReader>) {
     limited_by_ = bounds[static_cast<std::size_t>(bound) % std::size(bounds)];
   }

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "simulation/coupled_simulation.hpp"
-#include "simulation/prescribed_motion.hpp"
 
 namespace gdesp {
 
@@ -72,39 +71,23 @@ void CoupledSimulation<Exec>::gather_forces(double dt) {
 
 template <class Exec>
 void CoupledSimulation<Exec>::couple_grains(double dt) {
-  if (!grains_) return;
+  if (!grains_ && !rigid_) return;
   if (!grains_in_water()) {
     if (coupling_ && !water_reset_) {
       fluid_.reset_coupling();
       grains_->set_fluid(nullptr, nullptr, nullptr, nullptr);
       water_reset_ = true;
     }
-    advance_grains(dt);
+    advance_solids(dt);
     return;
   }
-  advance_grains(dt);
+  advance_solids(dt);
   coupling_->react(*grains_, fluid_, static_cast<float>(dt));
 }
 
 template <class Exec>
 int CoupledSimulation<Exec>::substeps_for(double dt) const {
   return std::max(1, static_cast<int>(std::ceil(dt / (step_factor_ * grain_dt_) - 1e-9)));
-}
-
-template <class Exec>
-void CoupledSimulation<Exec>::advance_grains(double dt) {
-  std::vector<dem::BodyMotionState> motions;
-  for (std::size_t b = 0; b < input_.bodies.size(); ++b) {
-    const Body& body = input_.bodies[b];
-    dem::BodyMotionState motion;
-    motion.centre_begin = motion_at(body.motion, time_).displacement;
-    motion.centre_end = motion_at(body.motion, time_ + dt).displacement;
-    motion.present = !removed_at(body.motion, time_ + dt);
-    motions.push_back(motion);
-  }
-  grains_->set_bodies(motions);
-  grains_->advance(dt, substeps_for(dt));
-  grain_speed_ = grains_->largest_speed();
 }
 
 using Backend = exec::CompiledBackend;
@@ -115,6 +98,5 @@ template void CoupledSimulation<Backend>::porosity_now(double);
 template void CoupledSimulation<Backend>::gather_forces(double);
 template void CoupledSimulation<Backend>::couple_grains(double);
 template int CoupledSimulation<Backend>::substeps_for(double) const;
-template void CoupledSimulation<Backend>::advance_grains(double);
 
 }  // namespace gdesp

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "simulation/prescribed_motion.hpp"
 #include "simulation/time_step_limits.hpp"
 
 namespace gdesp {
@@ -21,11 +20,12 @@ Domain domain_of(const SimulationInput& input) {
 template <class Exec>
 CoupledSimulation<Exec>::CoupledSimulation(const Exec& exec, const SimulationInput& input)
     : exec_(exec), input_(input), domain_(domain_of(input)),
-      fluid_(exec, domain_, input.fluid_parameters, input.fluid, input.boundary), body_states_(input.bodies.size()) {
+      fluid_(exec, domain_, input.fluid_parameters, input.fluid, guarding_walls(input)), body_states_(input.bodies.size()) {
   input_.fluid = {};
   input_.boundary = {};
   input_.grains = {};
   if (input_.time.cfl <= 0.0) input_.time.cfl = input_.time.scheme == TimeScheme::split ? split_default_cfl : verlet_default_cfl;
+  start_bodies(input);
   place_bodies(0.0);
   if (!input.grains.position.empty()) start_grains(input);
   fluid_.extrapolate_walls();
@@ -44,10 +44,11 @@ double CoupledSimulation<Exec>::choose_step(double end) {
   double dt = input_.time.fixed_step;
   limited_by_ = "fixed";
   if (dt <= 0.0) {
+    const double largest_speed = std::max(std::sqrt(static_cast<double>(extremes_.speed2)), rigid_ ? rigid_->largest_speed() : 0.0);
     const double artificial = p.viscosity == sph::Viscosity::artificial
                                   ? p.artificial_viscosity * p.h * p.sound_speed / (2.0 * (p.dimensions + 2)) : 0.0;
     const FluidStepLimit limit =
-        fluid_step_limit(input_.time.cfl, p.h, p.sound_speed, std::sqrt(static_cast<double>(extremes_.speed2)),
+        fluid_step_limit(input_.time.cfl, p.h, p.sound_speed, largest_speed,
                          std::sqrt(static_cast<double>(extremes_.acceleration2)), p.kinematic_viscosity + artificial);
     dt = limit.dt;
     limited_by_ = limit.bound;
@@ -72,6 +73,7 @@ void CoupledSimulation<Exec>::make_room_for(double dt) {
   double speed = std::sqrt(static_cast<double>(extremes_.speed2)) +
                  dt * (std::sqrt(static_cast<double>(extremes_.acceleration2)));
   for (const auto& body : body_states_) speed = std::max(speed, static_cast<double>(norm(body.velocity)));
+  if (rigid_) speed = std::max(speed, rigid_->largest_speed() + dt * norm(input_.fluid_parameters.gravity));
   // Shifting adds at most 0.4 of the path of the fastest (sph.shifting).
   const double move = (input_.fluid_parameters.shifting > 0.0 ? 1.6 : 1.2) * speed * dt;
   if (fluid_.may_fall_asleep(time_)) fluid_.start_sleeping(time_, movers());
@@ -82,22 +84,6 @@ void CoupledSimulation<Exec>::make_room_for(double dt) {
   }
   largest_move_ = move;
   if (coupling_) refresh_coupling(move + 1.2 * grain_speed_ * dt, stale);
-}
-
-template <class Exec>
-void CoupledSimulation<Exec>::place_bodies(double t) {
-  if (input_.bodies.empty()) return;
-  for (std::size_t b = 0; b < input_.bodies.size(); ++b) {
-    const Body& body = input_.bodies[b];
-    sph::WallBodyState& state = body_states_[b];
-    if (body.kind != BodyKind::prescribed) continue;
-    const MotionNow now = motion_at(body.motion, t);
-    state.centre_start = {};
-    state.centre = now.displacement;
-    state.velocity = static_cast<Vec3f>(now.velocity);
-    state.present = removed_at(body.motion, t) ? 0 : 1;
-  }
-  fluid_.move_walls(body_states_);
 }
 
 template <class Exec>
@@ -115,6 +101,7 @@ void CoupledSimulation<Exec>::fluid_split_step(float dt) {
   gather_forces(static_cast<double>(dt));
   fluid_.spacing_pass();
   fluid_.momentum_pass();
+  measure_loads(false);
   fluid_.find_walls();
   couple_grains(static_cast<double>(dt));
   fluid_.kick_drift(dt, 0.5f * dt, ::sqrtf(extremes_.speed2));
@@ -137,6 +124,7 @@ void CoupledSimulation<Exec>::fluid_verlet_step(float dt) {
   }
   gather_forces(static_cast<double>(dt));
   fluid_.combined_pass();
+  measure_loads(true);
   couple_grains(static_cast<double>(dt));
   fluid_.verlet_correct(dt);
 }
@@ -155,8 +143,8 @@ template <class Exec>
 void CoupledSimulation<Exec>::step(double end) {
   const double dt = choose_step(end), old_speed = std::sqrt(static_cast<double>(extremes_.speed2));
   if (fluid_.particles() == 0) {
+    advance_solids(dt);
     place_bodies(time_ + dt);
-    advance_grains(dt);
   } else {
     make_room_for(dt);
     if (input_.time.scheme == TimeScheme::split) {
@@ -216,6 +204,15 @@ Diagnostics CoupledSimulation<Exec>::diagnostics() {
     d.deepest_in_wall_id = deepest.id;
   }
   if (fluid_.set().clusters() > 0) d.awake_share = static_cast<double>(fluid_.awake_clusters()) / fluid_.set().clusters();
+  if (rigid_) {
+    const dem::RigidSums bodies = rigid_->sums();
+    d.free_bodies = std::count(free_.begin(), free_.end(), 1);
+    d.body_momentum = bodies.momentum;
+    d.body_kinetic = bodies.kinetic_energy;
+    d.body_potential = bodies.potential_energy;
+    d.body_elastic = bodies.elastic_energy;
+    d.largest_body_speed = rigid_->largest_speed();
+  }
   if (grains_) {
     const dem::GrainSums grains = grains_->sums();
     d.grains = grains.particles;
@@ -234,21 +231,6 @@ Diagnostics CoupledSimulation<Exec>::diagnostics() {
 
 template <class Exec>
 GrainTable CoupledSimulation<Exec>::grains() { return grains_ ? grains_->table() : GrainTable{}; }
-
-template <class Exec>
-std::vector<BodyPose> CoupledSimulation<Exec>::bodies() {
-  std::vector<BodyPose> poses;
-  for (const auto& state : body_states_) {
-    BodyPose pose;
-    pose.centre = state.centre;
-    pose.velocity = static_cast<Vec3d>(state.velocity);
-    pose.angular_velocity = static_cast<Vec3d>(state.angular_velocity);
-    std::copy(std::begin(state.rotation), std::end(state.rotation), std::begin(pose.rotation));
-    pose.present = state.present != 0;
-    poses.push_back(pose);
-  }
-  return poses;
-}
 
 template class CoupledSimulation<exec::CompiledBackend>;
 

@@ -4,10 +4,15 @@
 
 #include "coupling/grain_fluid_coupling.hpp"
 #include "dem/grain_system.hpp"
+#include "dem/rigid_bodies.hpp"
 #include "simulation/simulation.hpp"
 #include "sph/fluid_system.hpp"
 
 namespace gdesp {
+
+/// The walls as the guard of the water sees them: particles of free bodies have no say there (no normal), for what the guard
+/// does is not given back to a body.
+BoundaryTable guarding_walls(const SimulationInput& input);
 
 template <class Exec>
 class CoupledSimulation final : public Simulation {
@@ -38,7 +43,14 @@ class CoupledSimulation final : public Simulation {
   void note_move(double dt, double old_speed);
   void fluid_split_step(float dt);
   void fluid_verlet_step(float dt);
+  // Bodies (rigid_step.cpp).
+  void start_bodies(const SimulationInput& input);
   void place_bodies(double t);
+  void measure_loads(bool mean_with_last);
+  dem::BodyMotionState body_path(std::size_t b, double from, double dt) const;
+  std::vector<dem::BodyImpulse> grains_between_bodies(double from, double dt, int substeps);
+  void advance_solids(double dt);
+  std::vector<std::int32_t> prescribed_numbers() const;
   // Grains and coupling (coupled_grains.cpp).
   void start_grains(const SimulationInput& input);
   bool grains_in_water() const { return coupling_ && coupling_->in_contact(); }
@@ -47,7 +59,6 @@ class CoupledSimulation final : public Simulation {
   void porosity_now(double ahead);
   void gather_forces(double dt);
   void couple_grains(double dt);
-  void advance_grains(double dt);
   int substeps_for(double dt) const;
 
   Exec exec_;
@@ -60,6 +71,10 @@ class CoupledSimulation final : public Simulation {
   long coupled_rebuild_ = -1;         ///< of the grains, when the coupling's lists were made
   bool water_reset_ = true;           ///< porosity 1 and no reaction are in place
   std::vector<sph::WallBodyState> body_states_;
+  std::unique_ptr<dem::RigidBodies> rigid_;          ///< null: no free bodies
+  double rigid_time_ = 0.0;                          ///< s, of their state
+  std::vector<dem::BodyLoad> loads_, last_loads_;    ///< of the water: for the step under way; at the last pass
+  std::vector<std::int32_t> free_;                   ///< by body number
   sph::FluidExtremes extremes_;
   double time_ = 0.0, last_dt_ = 0.0;
   double largest_move_ = 0.0;         ///< m, bound on what a particle moves in this step

@@ -22,6 +22,10 @@ struct Diagnostics {
   Vec3d fluid_momentum;
   double grain_mass = 0.0, grain_kinetic = 0.0, grain_potential = 0.0, grain_elastic = 0.0;
   Vec3d grain_momentum;
+  double body_kinetic = 0.0, body_potential = 0.0, body_elastic = 0.0;  ///< of free bodies and their contacts
+  Vec3d body_momentum;
+  double largest_body_speed = 0.0;    ///< m/s, of any point of a free body
+  std::int64_t free_bodies = 0;
   double largest_speed = 0.0;         ///< m/s, water
   double largest_grain_speed = 0.0;   ///< m/s
   double mach = 0.0;                  ///< largest speed of water / sound speed
@@ -40,7 +44,7 @@ struct BodyPose {
   Vec3d centre, velocity, angular_velocity;
   double rotation[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   bool present = true;
-  Vec3d force;                        ///< N, of water and grains on it
+  Vec3d force, torque;                ///< N, N m about the centre: free bodies, of all but gravity; prescribed, of the water
 };
 
 /// What every step leaves behind at no cost. SI units.

@@ -127,7 +127,9 @@ FluidSystem<Exec>::FluidSystem(const Exec& exec, const Domain& domain, const Flu
       position_(exec), velocity_(exec), density_(exec), id_(exec), mass_share_(exec), porosity_(exec), external_(exec),
       record_(exec), rate_(exec), wall_position_(exec), wall_start_(exec), wall_velocity_(exec), wall_body_(exec),
       wall_density_(exec), wall_friction_(exec), wall_id_(exec), wall_record_(exec), wall_rate_(exec),
-      wall_normal_(exec), wall_depth_(exec), wall_surface_(exec), near_wall_(exec), wall_ghost_(exec), spacing_(exec), near_surface_(exec), own_pressure_(exec), wall_bodies_(exec), scratch_position_(exec), scratch_vector_(exec), scratch_float_(exec), scratch_uint_(exec),
+      wall_normal_(exec), wall_depth_(exec), wall_surface_(exec), near_wall_(exec), wall_ghost_(exec), spacing_(exec),
+      near_surface_(exec), own_pressure_(exec), wall_bodies_(exec), body_asked_(exec), body_sum_(exec), body_force_(exec),
+      scratch_position_(exec), scratch_vector_(exec), scratch_float_(exec), scratch_uint_(exec),
       scratch_int_(exec), filling_(exec) {
   start_fluid(fluid);
   start_walls(walls);

@@ -48,6 +48,11 @@ struct WallBodyState {
   int present = 1;                                     ///< 0: removed
 };
 
+/// What the water does to a body: force (N) and torque (N m) about its centre.
+struct WallLoad {
+  Vec3d force, torque;
+};
+
 template <class Exec>
 class FluidSystem {
  public:
@@ -125,6 +130,8 @@ class FluidSystem {
   void evolve_dynamic_walls(float dt);                   ///< D of wall particles, `dynamic` walls
   void move_walls(const std::vector<WallBodyState>& bodies);  ///< index: body number - 1
   void pack();                                           ///< records from the state
+  /// Loads on bodies 1, 2, ... at the records of the momentum pass; `asked[number]`: 1 for those wanted (sph.body-load).
+  std::vector<WallLoad> body_loads(const std::vector<std::int32_t>& asked);
 
   FluidExtremes extremes();
   FluidSums sums();
@@ -212,6 +219,9 @@ class FluidSystem {
   Array<float, Exec> near_surface_;             ///< q of sph.shifting, by slot
   Array<float, Exec> own_pressure_;             ///< A_i under tensile control, by slot
   Array<WallBodyState, Exec> wall_bodies_;
+  Array<std::int32_t, Exec> body_asked_;        ///< scratch of body_loads
+  Array<std::int64_t, Exec> body_sum_;
+  Array<float, Exec> body_force_;
 
   // Scratch for permutations, one per element size.
   Array<FixedPosition, Exec> scratch_position_;

@@ -154,7 +154,8 @@ struct SumOf {
     sum.kinetic_energy = 0.5 * m * dot(v, v);
     sum.potential_energy = -m * dot(gravity, domain.metres(state.position[s]));
     // Tait: work of compression per mass, c^2 (x^6/42 + 1/(7 x) - 1/6), x = rho/rho0.
-    const double x = (1.0 + static_cast<double>(state.density[s])) / (porosity ? static_cast<double>(porosity[s]) : 1.0);
+    const double ratio = (1.0 + static_cast<double>(state.density[s])) / (porosity ? static_cast<double>(porosity[s]) : 1.0);
+    const double x = cavitates && ratio < 1.0 ? 1.0 : ratio;  // water that has opened holds no tension
     const double x2 = x * x;
     if (x > 1.0 || !cavitates)  // opened water bears no pressure
       sum.elastic_energy = m * c2 * (x2 * x2 * x2 / 42.0 + 1.0 / (7.0 * x) - 1.0 / 6.0);

@@ -136,7 +136,7 @@ std::optional<Trouble> Guard::past_a_limit(const Diagnostics& d, double rise) {
     t.id = d.deepest_in_wall_id;
     return t;
   }
-  if (d.fluid_particles + d.grains == 0)
+  if (d.fluid_particles + d.grains + d.free_bodies == 0)
     return now(Cause::all_lost, "all particles have left the domain", "a larger [domain] keeps the particles");
   return std::nullopt;
 }

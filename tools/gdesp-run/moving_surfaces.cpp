@@ -73,6 +73,8 @@ std::vector<BodyState> body_states(const std::vector<Body>& bodies, const std::v
     state.centre = placed(bodies[b].centre, bodies[b], poses[b], t);
     state.velocity = poses[b].velocity;
     state.angular_velocity = poses[b].angular_velocity;
+    state.force = poses[b].force;
+    state.torque = poses[b].torque;
     to_quaternion(poses[b].rotation, state.orientation);
     states.push_back(state);
   }

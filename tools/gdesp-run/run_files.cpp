@@ -54,6 +54,8 @@ ordered_json diagnostics_record(const Diagnostics& d) {
           {"fluid_elastic", d.fluid_elastic}, {"fluid_momentum", vector_json(d.fluid_momentum)},
           {"grain_mass", d.grain_mass}, {"grain_kinetic", d.grain_kinetic}, {"grain_potential", d.grain_potential},
           {"grain_elastic", d.grain_elastic}, {"grain_momentum", vector_json(d.grain_momentum)},
+          {"body_kinetic", d.body_kinetic}, {"body_potential", d.body_potential}, {"body_elastic", d.body_elastic},
+          {"body_momentum", vector_json(d.body_momentum)}, {"largest_body_speed", d.largest_body_speed},
           {"largest_speed", d.largest_speed}, {"largest_grain_speed", d.largest_grain_speed}, {"mach", d.mach},
           {"largest_density_error", d.largest_density_error}, {"largest_overlap", d.largest_overlap},
           {"deepest_in_wall", d.deepest_in_wall}, {"fluid_particles", d.fluid_particles}, {"grains", d.grains}, {"lost_fluid", d.lost_fluid},

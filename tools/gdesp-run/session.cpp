@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "session.hpp"
 
+#include <algorithm>
+
 #include "checkpoint_files.hpp"
 #include "exec/backend.hpp"
 #include "exec/profile.hpp"
@@ -60,8 +62,9 @@ Session prepare(RunOptions options) {
   const ExpectedSpeed expected = expected_speed(s.scene_case);
   s.input = case_to_input(s.scene_case);
   s.summary = summarize(s.scene_case.scene, s.input, expected, s.device, s.threads);
-  if (s.summary.moving_particles == 0)
-    throw Error(ErrorKind::input, options.case_path + ": has neither water nor grains; there is nothing to simulate");
+  const auto is_free = [](const Body& body) { return body.kind == BodyKind::free; };
+  if (s.summary.moving_particles == 0 && std::none_of(s.input.bodies.begin(), s.input.bodies.end(), is_free))
+    throw Error(ErrorKind::input, options.case_path + ": has neither water nor grains nor a free body; there is nothing to simulate");
   describe_economies(s.summary, s.scene_case.scene, s.input, expected, measure_step_costs(s.input, s.device));
   exec::set_profiling(options.profile);
   s.options = std::move(options);
