@@ -40,6 +40,8 @@ class RigidBodies {
   /// `spacing`: of contact points, m. Throws Error(input) for a free body without mass, inertia or surface.
   RigidBodies(const std::vector<Body>& bodies, const TriangleTable& walls, const ContactParameters& contact,
               const Vec3d& gravity, double spacing, int dimensions);
+  /// The still water (kg/m3, m) whose pressure friction feels between a body and the ground. Default: none.
+  void set_still_water(double density, double level) { water_density_ = density; water_level_ = level; }
 
   std::size_t count() const { return state_.size(); }
   bool is_free_kind(std::size_t b) const { return bodies_[b].kind == BodyKind::free; }
@@ -100,6 +102,7 @@ class RigidBodies {
   NearestPlace place_of(const PointMemory& p, const Vec3d& point, const BodyMoment& other) const;
   void note_first_depths();
   double normal_energy() const;
+  double pore_force(const PointMemory& p, const Vec3d& place) const;
   std::vector<Found> find_touches();
   void add_force(const Found& found, double h, std::vector<BodyLoad>& loads);
   void kick(std::size_t b, double h, const BodyLoad& solid);
@@ -110,11 +113,11 @@ class RigidBodies {
   std::vector<Vec3d> inertia_;                    ///< principal moments
   std::vector<Quaternion> principal_;             ///< principal axes at the start
   std::vector<double> reach_;                     ///< m, farthest corner from the centre
-  std::vector<std::vector<Vec3d>> point_;         ///< contact points, case coordinates at the start
+  std::vector<std::vector<SurfacePoint>> point_;  ///< contact points
   WallMesh mesh_;
   RigidContactLaw law_;
   Vec3d gravity_;
-  double spacing_ = 0.0;
+  double spacing_ = 0.0, water_density_ = 0.0, water_level_ = 0.0;
   int dimensions_ = 3;
   std::vector<RigidState> state_;
   std::vector<BodyMoment> other_;                 ///< of prescribed bodies

@@ -7,9 +7,12 @@
 //   [kg]. A face with n points is a spring n k, damped so that it rebounds with the restitution coefficient.
 //   Valid while d stays well below s. A point that starts inside a surface counts d from there.
 // @eq rigid.contact.friction
-//   T = T_0 - k_t v_t h,  T_total = T - 2 beta sqrt(k_t m_c) v_t, both cut at mu max(N, 0)
+//   T = T_0 - k_t v_t h,  T_total = T - 2 beta sqrt(k_t m_c) v_t, both cut at mu max(N - u A, 0)
 //   T: elastic tangential force, remembered [N]; T_0: the last one, turned into the tangent plane; v_t: tangential velocity
-//   [m/s]; h: step [s]; k_t: k 2(1 - nu)/(2 - nu), or k times contact.stiffness_ratio; mu: contact.wall_friction.
+//   [m/s]; h: step [s]; k_t: k 2(1 - nu)/(2 - nu), or k times contact.stiffness_ratio; mu: contact.wall_friction;
+//   u: pressure of the still water at the point [Pa], A: the surface it stands for [m2]. No water is computed between
+//   a body and the ground, so N is the total stress there and N - u A the effective one (Terzaghi 1943, Theoretical Soil
+//   Mechanics, doi:10.1002/9780470172766): friction is that of a body to whose underside water has found its way.
 //   A block on a plane rests up to tan(slope) = mu and slides at g (sin - mu cos) beyond.
 //   Source of both: Cundall and Strack (1979), Geotechnique 29, 47, doi:10.1680/geot.1979.29.1.47, point by point.
 #pragma once
@@ -35,6 +38,7 @@ struct PointTouch {
   double depth = 0.0;       ///< m, > 0
   Vec3d velocity;           ///< m/s, of the point against the other surface
   double mass = 0.0;        ///< m_c, kg
+  double pore_force = 0.0;  ///< u A, N
 };
 
 /// N on the body; `tangential` (N) is the memory of the contact. `step`: s.
@@ -48,7 +52,7 @@ inline Vec3d rigid_contact_force(const RigidContactLaw& law, const PointTouch& t
   const double in_plane = norm(elastic);
   if (in_plane > 0.0) elastic *= length / in_plane;
   elastic -= (law.shear_stiffness * step) * v_t;
-  const double cap = law.friction * std::max(normal, 0.0);
+  const double cap = law.friction * std::max(normal - touch.pore_force, 0.0);
   const double held = norm(elastic);
   if (held > cap) elastic *= cap / held;
   tangential = elastic;

@@ -33,7 +33,7 @@ Vec3d RigidBodies::to_start(std::int32_t number, const BodyMoment& m, const Vec3
 
 Vec3d RigidBodies::point_now(std::int32_t body, std::int32_t point, const BodyMoment& m) const {
   const auto b = static_cast<std::size_t>(body - 1);
-  return m.centre + multiply(m.rotation, point_[b][static_cast<std::size_t>(point)] - bodies_[b].centre);
+  return m.centre + multiply(m.rotation, point_[b][static_cast<std::size_t>(point)].place - bodies_[b].centre);
 }
 
 ListedPose RigidBodies::pose_of(std::int32_t number) const {
@@ -106,6 +106,12 @@ void RigidBodies::note_first_depths() {
   }
 }
 
+double RigidBodies::pore_force(const PointMemory& p, const Vec3d& place) const {
+  if (moves(p.other)) return 0.0;
+  const double head = std::max(0.0, water_level_ - place.z);
+  return -gravity_.z * water_density_ * head * point_[static_cast<std::size_t>(p.body - 1)][static_cast<std::size_t>(p.point)].area;
+}
+
 std::vector<RigidBodies::Found> RigidBodies::find_touches() {
   std::vector<BodyMoment> moment;
   for (std::size_t n = 0; n <= count(); ++n) moment.push_back(moment_of(static_cast<std::int32_t>(n)));
@@ -128,7 +134,7 @@ std::vector<RigidBodies::Found> RigidBodies::find_touches() {
     p.touching = 1;
     ++touching[static_cast<std::size_t>(p.body)];
     const Vec3d velocity = own.velocity + cross(own.spin, place - own.centre) - other.velocity - cross(other.spin, place - other.centre);
-    found.push_back({k, {near.n, p.depth, velocity, 0.0}, place});
+    found.push_back({k, {near.n, p.depth, velocity, 0.0, pore_force(p, place)}, place});
   }
   largest_depth_ = 0.0;
   for (Found& f : found) {

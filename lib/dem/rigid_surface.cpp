@@ -4,42 +4,48 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
+#include <map>
 
 #include "dem/wall_strips.hpp"
 
 namespace gdesp::dem {
 namespace {
 
-// Collects points, one for each cell of the weld length.
+// Collects points, one for each cell of the weld length, and adds up what they stand for.
 class PointCollector {
  public:
-  PointCollector(double weld, std::vector<Vec3d>& points) : inverse_(1.0 / weld), points_(points) {}
-  void add(const Vec3d& p) {
+  PointCollector(double weld, std::vector<SurfacePoint>& points) : inverse_(1.0 / weld), points_(points) {}
+  void add(const Vec3d& p, double area) {
     const std::array<long long, 3> cell{std::llround(p.x * inverse_), std::llround(p.y * inverse_), std::llround(p.z * inverse_)};
-    if (seen_.insert(cell).second) points_.push_back(p);
+    const auto [known, fresh] = seen_.try_emplace(cell, points_.size());
+    if (fresh) points_.push_back({p, 0.0});
+    points_[known->second].area += area;
   }
 
  private:
   double inverse_;
-  std::vector<Vec3d>& points_;
-  std::set<std::array<long long, 3>> seen_;
+  std::vector<SurfacePoint>& points_;
+  std::map<std::array<long long, 3>, std::size_t> seen_;
 };
 
 int parts_of(double length, double spacing) { return std::max(1, static_cast<int>(std::ceil(length / spacing - 1e-6))); }
 
 void add_line(const Vec3d& a, const Vec3d& b, double spacing, PointCollector& out) {
   const int n = parts_of(norm(b - a), spacing);
-  for (int i = 0; i <= n; ++i) out.add(a + (static_cast<double>(i) / n) * (b - a));
+  const double share = norm(b - a) / n;
+  for (int i = 0; i <= n; ++i) out.add(a + (static_cast<double>(i) / n) * (b - a), i == 0 || i == n ? 0.5 * share : share);
 }
 
 // A lattice of barycentric coordinates whose longest side is cut into parts of at most `spacing`.
 void add_triangle(const Vec3d (&c)[3], double spacing, PointCollector& out) {
-  const int n = parts_of(std::max({norm(c[1] - c[0]), norm(c[2] - c[1]), norm(c[0] - c[2])}), spacing);
+  const Vec3d e = c[1] - c[0], f = c[2] - c[0];
+  const int n = parts_of(std::max({norm(e), norm(f), norm(e - f)}), spacing);
+  const double third = norm(cross(e, f)) / (6.0 * n * n);
   for (int i = 0; i <= n; ++i) {
     for (int j = 0; i + j <= n; ++j) {
-      const double u = static_cast<double>(i) / n, v = static_cast<double>(j) / n;
-      out.add(c[0] + u * (c[1] - c[0]) + v * (c[2] - c[0]));
+      // The small triangles that meet here: one at a corner of the large one, three on its sides, six inside.
+      const int sides = (i == 0) + (j == 0) + (i + j == n);
+      out.add(c[0] + (static_cast<double>(i) / n) * e + (static_cast<double>(j) / n) * f, third * (sides == 0 ? 6 : (sides == 1 ? 3 : 1)));
     }
   }
 }
@@ -107,7 +113,7 @@ double box_distance2(const WallNode& node, const Vec3d& p) {
 
 }  // namespace
 
-std::vector<Vec3d> surface_points(const TriangleTable& walls, std::int32_t number, double spacing, int dimensions) {
+std::vector<SurfacePoint> surface_points(const TriangleTable& walls, std::int32_t number, double spacing, int dimensions) {
   TriangleTable own;
   own.vertex = walls.vertex;
   for (std::size_t t = 0; t < walls.triangle.size(); ++t) {
@@ -115,7 +121,7 @@ std::vector<Vec3d> surface_points(const TriangleTable& walls, std::int32_t numbe
     own.triangle.push_back(walls.triangle[t]);
     own.body.push_back(number);
   }
-  std::vector<Vec3d> points;
+  std::vector<SurfacePoint> points;
   PointCollector collector(1.0e-3 * spacing, points);
   if (dimensions == 2) {
     const TriangleTable strips = make_wall_strips(own, 1.0e-6 * spacing, 1.0);

@@ -8,9 +8,14 @@
 
 namespace gdesp::dem {
 
-/// Points (m, case coordinates at the start) on the surface of body `number`, at its vertices and about `spacing` apart
-/// between them, each once. In two dimensions those of its outline in the plane y = 0.
-std::vector<Vec3d> surface_points(const TriangleTable& walls, std::int32_t number, double spacing, int dimensions);
+struct SurfacePoint {
+  Vec3d place;         ///< m, case coordinates at the start
+  double area = 0.0;   ///< m2 (two dimensions: m) of the surface that it stands for
+};
+
+/// Points on the surface of body `number`, at its vertices and about `spacing` (m) apart between them, each once. In two
+/// dimensions those of its outline in the plane y = 0.
+std::vector<SurfacePoint> surface_points(const TriangleTable& walls, std::int32_t number, double spacing, int dimensions);
 
 /// The place of a surface nearest to a point.
 struct NearestPlace {

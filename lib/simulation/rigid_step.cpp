@@ -34,6 +34,7 @@ void CoupledSimulation<Exec>::start_bodies(const SimulationInput& input) {
   if (std::none_of(input.bodies.begin(), input.bodies.end(), is_free)) return;
   const sph::FluidParameters& p = input.fluid_parameters;
   rigid_ = std::make_unique<dem::RigidBodies>(input.bodies, input.walls, input.contact, p.gravity, p.dp, p.dimensions);
+  if (!input.fluid.position.empty()) rigid_->set_still_water(p.reference_density, p.level);
   rigid_->release(0.0);
   loads_.assign(input.bodies.size(), {});
   last_loads_ = loads_;
