@@ -49,8 +49,9 @@ std::string moment_text(std::int64_t step, double time) {
 
 double EnergyWatch::rise(const Diagnostics& d) {
   if (lost_ >= 0 && d.step - step_ < least_steps) return rise_;
-  const double potential = d.fluid_potential + d.grain_potential;
-  const double sum = potential + d.fluid_kinetic + d.fluid_elastic + d.grain_kinetic + d.grain_elastic;
+  const double potential = d.fluid_potential + d.grain_potential + d.body_potential;
+  const double sum = potential + d.fluid_kinetic + d.fluid_elastic + d.grain_kinetic + d.grain_elastic +
+                     d.body_kinetic + d.body_elastic;
   const std::int64_t lost = d.lost_fluid + d.lost_grains;
   if (lost_ < 0) {
     start_ = sum - potential;

@@ -92,13 +92,14 @@ TEST(RigidIncline, BlockRestsOrSlides) {
       const Vec3d g{gravity * std::sin(row.degrees * degree), 0, -gravity * std::cos(row.degrees * degree)};
       dem::RigidBodies bodies({box_body(lo, hi, 2000)}, walls, contact(row.friction), g, dimensions == 2 ? 0.05 : 0.2, dimensions);
       bodies.release(0.0);
-      run_dry(bodies, 0.5, 0.001);
+      run_dry(bodies, 0.2, 0.001);  // it settles: contacts carry nothing at the start
+      const double settled = bodies.state(0).velocity.x;
+      run_dry(bodies, 0.3, 0.001);
       const double x = bodies.state(0).centre.x - 0.2;
       if (row.acceleration > 0.0) {
-        EXPECT_NEAR(bodies.state(0).velocity.x / (0.5 * row.acceleration), 1.0, 5e-3) << row.degrees << " " << dimensions;
-        EXPECT_NEAR(x / (0.125 * row.acceleration), 1.0, 1e-2) << row.degrees << " " << dimensions;
+        EXPECT_NEAR((bodies.state(0).velocity.x - settled) / (0.3 * row.acceleration), 1.0, 2e-3) << row.degrees << " " << dimensions;
       } else {
-        EXPECT_LT(std::abs(x), 3e-3) << row.degrees;  // it settles: contacts carry nothing at the start
+        EXPECT_LT(std::abs(x), 3e-3) << row.degrees;
         const double before = bodies.state(0).centre.x;
         run_dry(bodies, 0.5, 0.001);
         EXPECT_LT(std::abs(bodies.state(0).centre.x - before), 1e-7) << "creeps at " << row.degrees;
