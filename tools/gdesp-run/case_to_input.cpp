@@ -73,7 +73,8 @@ void consider_motions(const Case& c, ExpectedSpeed& expected) {
 
 sph::ActivityParameters activity_parameters(const Case& c) {
   sph::ActivityParameters p;
-  p.sleep = c.scene.economy.sleep;
+  // Walls beside sleeping water keep no pressure, and a free body floats on it.
+  p.sleep = c.scene.economy.sleep && std::none_of(c.bodies.begin(), c.bodies.end(), [](const Body& b) { return b.kind == BodyKind::free; });
   p.wake_speed = c.scene.economy.wake_speed;
   p.near_walls = c.scene.economy.near_walls;
   if (!c.fluid.position.empty()) {
