@@ -17,6 +17,10 @@ dem::BodyMoment prescribed_moment(const Body& body, double t) {
   return moment;
 }
 
+sph::LoadsOf loads_of(TimeScheme scheme) {
+  return scheme == TimeScheme::split ? sph::LoadsOf::momentum_pass : sph::LoadsOf::combined_pass;
+}
+
 }  // namespace
 
 BoundaryTable guarding_walls(const SimulationInput& input) {
@@ -66,7 +70,7 @@ void CoupledSimulation<Exec>::place_bodies(double t) {
 template <class Exec>
 void CoupledSimulation<Exec>::measure_loads(bool mean_with_last) {
   if (!rigid_) return;
-  const std::vector<sph::WallLoad> now = fluid_.body_loads(free_);
+  const std::vector<sph::WallLoad> now = fluid_.body_loads(free_, loads_of(input_.time.scheme));
   for (std::size_t b = 0; b < now.size(); ++b) {
     const dem::BodyLoad load{now[b].force, now[b].torque};
     loads_[b] = load;
@@ -135,7 +139,7 @@ std::vector<BodyPose> CoupledSimulation<Exec>::bodies() {
   std::vector<BodyPose> poses;
   const std::vector<sph::WallLoad> loads = body_states_.empty() || fluid_.particles() == 0
                                                ? std::vector<sph::WallLoad>(body_states_.size())
-                                               : fluid_.body_loads(prescribed_numbers());
+                                               : fluid_.body_loads(prescribed_numbers(), loads_of(input_.time.scheme));
   for (std::size_t b = 0; b < body_states_.size(); ++b) {
     const sph::WallBodyState& state = body_states_[b];
     BodyPose pose;

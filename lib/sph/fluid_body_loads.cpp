@@ -24,6 +24,8 @@ struct WallForces {
   const float* wall_friction;
   const std::int32_t* body;
   const std::int32_t* asked;    // by body number
+  const float* own_pressure;    // of the fluid; null: A of the record
+  const float* wall_ghost;      // null: no no-slip walls
   float* force;                 // fx fy fz, 4 each, per cluster
 
   template <class Lanes>
@@ -33,15 +35,17 @@ struct WallForces {
     if (!asked[b[0]] && !asked[b[1]] && !asked[b[2]] && !asked[b[3]]) return;
     const float* ri = walls + record_offset(c);
     const Real x = lanes.load_i(ri), y = lanes.load_i(ri + 4), z = lanes.load_i(ri + 8), B = lanes.load_i(ri + 12);
-    const Real vx = lanes.load_i(ri + 16), vy = lanes.load_i(ri + 20), vz = lanes.load_i(ri + 24), A = lanes.load_i(ri + 28);
+    const float* vi = wall_ghost ? wall_ghost + 16 * static_cast<std::int64_t>(c) : ri + 16;
+    const Real vx = lanes.load_i(vi), vy = lanes.load_i(vi + 4), vz = lanes.load_i(vi + 8), A = lanes.load_i(ri + 28);
     const Real friction = lanes.load_i(wall_friction + 4 * static_cast<std::int64_t>(c));
     FluidRates<Real> rates;
     for_each_cluster(list, c, [&](Index j, const Vec3f& shift) {
       const float* rj = fluid + record_offset(j);
+      const float* Aj = own_pressure ? own_pressure + 4 * static_cast<std::int64_t>(j) : rj + 28;
       add_fluid_pair<true, false, Kind, false>(
           law, x + Real(shift.x) - lanes.load_j(rj), y + Real(shift.y) - lanes.load_j(rj + 4),
           z + Real(shift.z) - lanes.load_j(rj + 8), vx - lanes.load_j(rj + 16), vy - lanes.load_j(rj + 20),
-          vz - lanes.load_j(rj + 24), A, lanes.load_j(rj + 28), lanes.load_j(rj + 12), friction, rates);
+          vz - lanes.load_j(rj + 24), A, lanes.load_j(Aj), lanes.load_j(rj + 12), friction, rates);
     });
     float* out = force + 12 * static_cast<std::int64_t>(c);
     const Real factor = Real(scale) * B;
@@ -78,7 +82,7 @@ struct AddLoads {
 }  // namespace
 
 template <class Exec>
-std::vector<WallLoad> FluidSystem<Exec>::body_loads(const std::vector<std::int32_t>& asked) {
+std::vector<WallLoad> FluidSystem<Exec>::body_loads(const std::vector<std::int32_t>& asked, LoadsOf pass) {
   const std::size_t bodies = asked.size() - 1;
   std::vector<WallLoad> loads(bodies);
   if (wall_set_.clusters() == 0 || wall_bodies_.empty()) return loads;
@@ -91,15 +95,19 @@ std::vector<WallLoad> FluidSystem<Exec>::body_loads(const std::vector<std::int32
   const auto run = [&](auto pass) { exec::pair_pass(exec_, "sph::body_loads", wall_set_.clusters(), pass); };
   const auto scale = static_cast<float>(p.reference_density * volume * c2);
   const ClusterListView list = wall_fluid_.view();
+  // As the pass saw the water and the walls.
+  const bool light = pass == LoadsOf::momentum_pass;
+  const float* own_pressure = light && p.tensile_control ? own_pressure_.data() : nullptr;
+  const float* ghost = light && no_slip_ ? wall_ghost_.data() : nullptr;
   if (p.viscosity == Viscosity::none) {
     run(WallForces<Viscosity::none>{pair_law(), scale, list, record_.data(), wall_record_.data(), wall_friction_.data(),
-                                    wall_body_.data(), body_asked_.data(), body_force_.data()});
+                                    wall_body_.data(), body_asked_.data(), own_pressure, ghost, body_force_.data()});
   } else if (p.viscosity == Viscosity::morris) {
     run(WallForces<Viscosity::morris>{pair_law(), scale, list, record_.data(), wall_record_.data(), wall_friction_.data(),
-                                      wall_body_.data(), body_asked_.data(), body_force_.data()});
+                                      wall_body_.data(), body_asked_.data(), own_pressure, ghost, body_force_.data()});
   } else {
     run(WallForces<Viscosity::artificial>{pair_law(), scale, list, record_.data(), wall_record_.data(), wall_friction_.data(),
-                                          wall_body_.data(), body_asked_.data(), body_force_.data()});
+                                          wall_body_.data(), body_asked_.data(), own_pressure, ghost, body_force_.data()});
   }
   // The force of a pressure rho0 c^2 on one particle's face is 2^40 units: sums reach 2^23 of them. Torques: arms of dp.
   const double unit = std::ldexp(p.reference_density * c2 * volume / p.dp, -40), torque_unit = unit * p.dp;
@@ -116,6 +124,6 @@ std::vector<WallLoad> FluidSystem<Exec>::body_loads(const std::vector<std::int32
   return loads;
 }
 
-template std::vector<WallLoad> FluidSystem<exec::CompiledBackend>::body_loads(const std::vector<std::int32_t>&);
+template std::vector<WallLoad> FluidSystem<exec::CompiledBackend>::body_loads(const std::vector<std::int32_t>&, LoadsOf);
 
 }  // namespace gdesp::sph

@@ -52,6 +52,8 @@ struct WallBodyState {
 struct WallLoad {
   Vec3d force, torque;
 };
+/// The pass whose reaction a load is: the light one may know no-slip ghosts and tensile control.
+enum class LoadsOf { momentum_pass, combined_pass };
 
 template <class Exec>
 class FluidSystem {
@@ -131,7 +133,7 @@ class FluidSystem {
   void move_walls(const std::vector<WallBodyState>& bodies);  ///< index: body number - 1
   void pack();                                           ///< records from the state
   /// Loads on bodies 1, 2, ... at the records of the momentum pass; `asked[number]`: 1 for those wanted (sph.body-load).
-  std::vector<WallLoad> body_loads(const std::vector<std::int32_t>& asked);
+  std::vector<WallLoad> body_loads(const std::vector<std::int32_t>& asked, LoadsOf pass);
 
   FluidExtremes extremes();
   FluidSums sums();
