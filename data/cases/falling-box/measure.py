@@ -33,6 +33,6 @@ rows.relative("speed of the wave / sqrt(g (D + a))", "1", speed / math.sqrt(9.81
 rows.relative("height of the wave, far / middle gauge", "1", a_far / a_middle, 1.0, 0.1)
 states = [tools.read_vtp(path) for _, path in tools.frames(run, "bodies")]
 box = scene["floating"][0]["box"]
-bottom = states[-1]["body_centre"][0][2] - 0.5 * (box["upper"][2] - box["lower"][2])
+bottom = states[-1]["body_centre"][2] - 0.5 * (box["upper"][2] - box["lower"][2])
 rows.add("bottom of the box at the end / D", "1", bottom / depth, 0.0, bottom / depth, 0.1)
 print(f"height of the wave: {a_middle:.4f} m at x = {place['middle']} m, {a_far:.4f} m at x = {place['far']} m", file=sys.stderr)
