@@ -10,6 +10,7 @@ left out unless --all. Exit status: 0, 1 with --strict when a kernel spills, 2 w
 """
 import argparse
 import re
+import signal
 import subprocess
 import sys
 
@@ -66,4 +67,5 @@ def main():
 
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)
     sys.exit(main())
