@@ -41,8 +41,8 @@ def energy_rise(run):
         if lost is not None and line["step"] - step < 50:
             continue
         step = line["step"]
-        potential = line["fluid_potential"] + line["grain_potential"]
-        total = potential + sum(line[k] for k in ("fluid_kinetic", "fluid_elastic", "grain_kinetic", "grain_elastic"))
+        potential = sum(line[f"{phase}_potential"] for phase in ("fluid", "grain", "body"))
+        total = potential + sum(line[f"{phase}_{kind}"] for phase in ("fluid", "grain", "body") for kind in ("kinetic", "elastic"))
         gone = line["lost_fluid"] + line["lost_grains"]
         if lost is None:
             start, highest = total - potential, potential
@@ -144,10 +144,10 @@ def axis_list():
         Axis("grain-size", "Grain diameter against smoothing length", "diameter / h [1]", [0.2, 0.35, 0.5, 0.75, 1, 1.5, 2, 3, 4], None,
              lambda v: ["settle", f"diameter={v * 0.015}"], none, "settling speed after 0.2 s, off by [%]", settling_error, 10.0,
              presets=("accurate",)),
-        Axis("pores", "Pores that close", "porosity of the grains' bed at the start [1]",
-             [0.6, 0.5, 0.4, 0.35, 0.3, 0.25, 0.2, 0.15, 0.1, 0.06], None,
-             lambda v: ["pores", f"gap={math.sqrt(0.9027 / (1 - v)):.6g}"], none, "largest speed of the water / sqrt(g depth) [%]",
-             lambda run: 100 * max(l["largest_speed"] for l in run.log) / math.sqrt(G * 0.2), 100.0, log_x=False, paper_values=(0.5, 0.3)),
+        Axis("pores", "Pores that close", "porosity of the bed of discs at the start [1]",
+             [0.7, 0.6, 0.5, 0.4, 0.35, 0.3, 0.25, 0.2, 0.15], None,
+             lambda v: ["pores", f"gap={math.sqrt(0.9027 / (1 - v)):.6g}"], none, "energy that nothing gave [%]", energy_rise, 5.0, log_x=False,
+             paper_values=(0.5, 0.3)),
         Axis("grain-step", "Step of the grains", "numerics.grain_time_step_share [1]", [0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.7, 1.0],
              {"accurate": 0.2, "paper": 0.2}, word("heap", "end=0.3"), setting("numerics.grain_time_step_share"), "energy that nothing gave [%]",
              energy_rise, 5.0, presets=("accurate",)),
@@ -155,7 +155,7 @@ def axis_list():
              {"accurate": 0.5}, word("heap", "end=0.3"), setting("contact.restitution"), "energy that nothing gave [%]", energy_rise, 5.0,
              log_x=False, presets=("accurate",)),
         Axis("youngs-modulus", "Young's modulus of the grains", "contact.youngs_modulus [Pa]",
-             [3e4, 1e5, 3e5, 1e6, 3e6, 1e7, 1e8, 1e9, 1e10, 7e10], {"accurate": 1e7}, word("heap", "drop=0.2", "end=0.3"),
+             [3e4, 1e5, 3e5, 1e6, 3e6, 1e7, 1e8], {"accurate": 1e7}, word("heap", "drop=0.2", "end=0.3"),
              setting("contact.youngs_modulus"), "largest overlap / diameter [%]", largest("largest_overlap", 100), 10.0,
              presets=("accurate",), small=(1e7, 3e4)),
         Axis("size-ratio", "Largest over smallest grain", "ratio of diameters [1]", [1, 2, 3, 5, 7, 10, 15, 20], None,
@@ -163,6 +163,9 @@ def axis_list():
         Axis("shot", "A grain shot at a plate, an edge, a vertex, a thin gate", "speed [m/s]", [1, 10, 30, 100, 300, 1000], None,
              word("shot", "speed={v}"), lambda v, preset: ["contact.youngs_modulus=7e10"], "went through (1: yes)", went_through, 0.5, log_y=False, presets=("accurate",),
              small=(100, None), variants=tuple((f"target={k}",) for k in range(4))),
+        Axis("light-body", "A box, ten spacings wide, lighter than water: let go half-sunk, and at the bottom", "density of the box / of water [1]",
+             [0.01, 0.02, 0.03, 0.05, 0.1, 0.2, 0.3, 0.5, 0.8, 1.0], None, word("float", "ratio={v}"), none, "energy that nothing gave [%]", energy_rise,
+             5.0, small=(0.2, None), variants=((), ("sunk=1",))),
         Axis("resting", "Grains at rest on a slope (friction 0.5: 26.6 degrees)", "angle of the slope [degree]",
              [0, 5, 10, 15, 20, 24, 26, 27, 30, 35], None, word("slope", "angle={v}", "end=1"), none, "speed after 1 s [mm/s]", creep, 0.1,
              log_x=False, presets=("accurate",), small=(20, None)),

@@ -11,6 +11,8 @@
 //   settle  one grain in a deep tank, three dimensions; diameter, density
 //   heap    block of grains falls into a dry tank; diameter, ratio (largest over smallest), drop
 //   slope   a row of grains on a plane; angle (degrees)
+//   float   a box in still water; ratio (of densities), sunk=1 (let go at the bottom, else half-sunk), side
+//   mixed   a dam of water and grains behind a gate that rises, a box that floats before it; density (of the grains)
 //   shot    one grain shot at a wall, three dimensions, dry; speed, target (0 plate, 1 edge, 2 vertex, 3 thin gate)
 #include <algorithm>
 #include <cmath>
@@ -69,7 +71,7 @@ struct Maker {
   }
 
   /// Four layers of wall particles on the lattice below the surface of a solid; distance(r) > 0 outside.
-  void solid(const Vec3d& low, const Vec3d& high, const std::function<double(const Vec3d&)>& distance) {
+  void solid(const Vec3d& low, const Vec3d& high, const std::function<double(const Vec3d&)>& distance, std::int32_t body = 0) {
     const bool three = c.scene.dimensions == 3;
     const auto first = [&](double a) { return static_cast<long>(std::floor(a / dp)); };
     for (long i = first(low.x); i < first(high.x); ++i)
@@ -87,16 +89,16 @@ struct Maker {
           c.boundary.normal.push_back(length > 0.0 ? static_cast<Vec3f>(n * (1.0 / length)) : Vec3f{});
           c.boundary.depth.push_back(static_cast<float>(-s));
           c.boundary.friction.push_back(0.0f);
-          c.boundary.body.push_back(0);
+          c.boundary.body.push_back(body);
         }
   }
 
-  void quad(const Vec3d& a, const Vec3d& b, const Vec3d& d, const Vec3d& e) {
+  void quad(const Vec3d& a, const Vec3d& b, const Vec3d& d, const Vec3d& e, std::int32_t body = 0) {
     const auto first = static_cast<std::int32_t>(c.walls.vertex.size());
     for (const Vec3d& v : {a, b, d, e}) c.walls.vertex.push_back(v);
     c.walls.triangle.push_back({first, first + 1, first + 2});
     c.walls.triangle.push_back({first, first + 2, first + 3});
-    c.walls.body.insert(c.walls.body.end(), 2, 0);
+    c.walls.body.insert(c.walls.body.end(), 2, body);
   }
   /// A wall of grains in the plane, from a to b; the free side is to the left.
   void line(const Vec3d& a, const Vec3d& b) {
@@ -109,6 +111,61 @@ struct Maker {
     c.grains.density.push_back(static_cast<float>(density));
     c.grains.group.push_back(0);
   }
+  /// A box in the plane that moves as its body says: its wall particles, and its surface one metre wide.
+  void block(const Vec3d& low, const Vec3d& high, const Body& body) {
+    c.bodies.push_back(body);
+    const auto number = static_cast<std::int32_t>(c.bodies.size());
+    solid(low, high, [=](const Vec3d& r) { return std::max({low.x - r.x, r.x - high.x, low.z - r.z, r.z - high.z}); }, number);
+    const auto at = [&](int i, int j, int k) { return Vec3d{i ? high.x : low.x, j ? 0.5 : -0.5, k ? high.z : low.z}; };
+    quad(at(0, 0, 0), at(0, 1, 0), at(1, 1, 0), at(1, 0, 0), number);
+    quad(at(0, 0, 1), at(1, 0, 1), at(1, 1, 1), at(0, 1, 1), number);
+    quad(at(0, 0, 0), at(1, 0, 0), at(1, 0, 1), at(0, 0, 1), number);
+    quad(at(0, 1, 0), at(0, 1, 1), at(1, 1, 1), at(1, 1, 0), number);
+    quad(at(0, 0, 0), at(0, 0, 1), at(0, 1, 1), at(0, 1, 0), number);
+    quad(at(1, 0, 0), at(1, 1, 0), at(1, 1, 1), at(1, 0, 1), number);
+  }
+  void floating(const Vec3d& low, const Vec3d& high, double density) {
+    Body body;
+    body.name = "box";
+    body.kind = BodyKind::free;
+    const Vec3d s = high - low;
+    body.mass = density * s.x * s.z;
+    body.centre = {0.5 * (low.x + high.x), 0.0, 0.5 * (low.z + high.z)};
+    body.inertia[0] = body.mass * (1.0 + s.z * s.z) / 12.0;
+    body.inertia[4] = body.mass * (s.x * s.x + s.z * s.z) / 12.0;
+    body.inertia[8] = body.mass * (s.x * s.x + 1.0) / 12.0;
+    block(low, high, body);
+  }
+
+  void float_() {
+    const double side = set.get("side", 0.1), width = 0.5, depth = 0.25;
+    const double bottom = set.get("sunk", 0) != 0 ? 0.05 : depth - 0.5 * side, left = 0.2;
+    tank(width, depth + 0.15);
+    water({0, 0, 0}, {width, 0, depth}, [=](const Vec3d& r) { return r.x < left || r.x > left + side || r.z < bottom || r.z > bottom + side; });
+    floating({left, 0, bottom}, {left + side, 0, bottom + side}, 1000.0 * set.get("ratio", 0.5));
+    c.still_water_level = depth;
+    end(2.0, 4);
+  }
+
+  void mixed() {
+    const double d = 0.009;
+    tank(0.5, 0.4);
+    water({0, 0, 0}, {0.12, 0, 0.2});
+    water({0.14, 0, 0}, {0.5, 0, 0.08}, [](const Vec3d& r) { return r.x < 0.3 || r.x > 0.36 || r.z < 0.05; });
+    Body gate;
+    gate.name = "gate";
+    gate.centre = {0.13, 0.0, 0.11};
+    gate.motion.time = {0.02, 0.22};
+    gate.motion.displacement = {{0, 0, 0}, {0, 0, 0.3}};
+    block({0.12, 0, 0.0}, {0.14, 0, 0.22}, gate);
+    floating({0.3, 0, 0.05}, {0.36, 0, 0.11}, 500.0);
+    slide(d);
+    for (int k = 0; k < 6; ++k)
+      for (int i = 0; i < 11; ++i) grain({0.008 + i * 1.12 * d + 0.001 * (k % 2), 0, 0.5 * d + k * 1.08 * d}, d, set.get("density", 2650));
+    c.still_water_level = 0.2;
+    end(0.4, 4);
+  }
+
   void slide(double diameter) {
     Slide s;
     s.diameter = diameter;
@@ -304,9 +361,9 @@ struct Maker {
 int main(int argc, char** argv) {
   const std::map<std::string, void (Maker::*)()> kinds{
       {"dam", &Maker::dam}, {"still", &Maker::still}, {"patch", &Maker::patch}, {"sheet", &Maker::sheet}, {"wet", &Maker::wet}, {"pores", &Maker::pores},
-      {"settle", &Maker::settle}, {"heap", &Maker::heap}, {"slope", &Maker::slope}, {"shot", &Maker::shot}};
+      {"float", &Maker::float_}, {"mixed", &Maker::mixed}, {"settle", &Maker::settle}, {"heap", &Maker::heap}, {"slope", &Maker::slope}, {"shot", &Maker::shot}};
   const auto kind = argc > 2 ? kinds.find(argv[2]) : kinds.end();
-  if (kind == kinds.end()) return std::fprintf(stderr, "atlas_case CASE dam|still|patch|sheet|wet|pores|settle|heap|slope|shot [name=value...]\n"), 2;
+  if (kind == kinds.end()) return std::fprintf(stderr, "atlas_case CASE dam|still|patch|sheet|wet|pores|float|mixed|settle|heap|slope|shot [name=value...]\n"), 2;
   Settings settings;
   for (int k = 3; k < argc; ++k) {
     const std::string text = argv[k];

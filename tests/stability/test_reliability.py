@@ -48,6 +48,17 @@ class Reliability(run_case.RunCase):
         self.whole(*FINE)
         self.assert_same_run("whole.run", run)
 
+    def test_thread_count_leaves_no_trace_on_water_grains_gate_and_box(self):
+        self.scene("mixed", "end=0.15")
+        for threads in ("1", "2", "3"):
+            self.run_well("a.case", "-o", f"{threads}.run", "-q", "--threads", threads)
+        log = self.log("1.run")
+        self.assertGreater(log[-1]["largest_grain_speed"], 0.01)
+        self.assertGreater(log[-1]["largest_body_speed"], 0.001)
+        self.assertTrue([name for name in self.frames("1.run") if name.startswith("bodies_")])
+        for threads in ("2", "3"):
+            self.assert_same_run("1.run", f"{threads}.run")
+
     def test_folder_that_vanishes(self):
         self.scene("dam", "dp=0.005")
         process = self.start("a.case", "-o", "a.run", "-q", "--set", "time.output_interval=0.01")
