@@ -30,6 +30,10 @@ class Rows:
         print("\t".join([metric, unit, f"{value:.5g}", f"{reference:.5g}" if not isinstance(reference, str) else reference,
                          f"{error:.3g}", f"{band:g}"]), flush=True)
 
+    def stated(self, metric, unit, value, reference):
+        """A number that no reference has, written down without being judged."""
+        self.add(metric, unit, value, reference, math.nan, math.nan)
+
     def relative(self, metric, unit, value, reference, band):
         self.add(metric, unit, value, reference, value / reference - 1.0, band)
 
@@ -78,6 +82,14 @@ def last_log(run):
     """The last line of the run's diagnostics."""
     lines = (Path(run) / "log.ndjson").read_text().strip().splitlines()
     return next(record for record in map(json.loads, reversed(lines)) if "largest_speed" in record)
+
+
+def energy_created(run):
+    """Highest total energy over the first, by the largest kinetic energy: what a closed scene has made from nothing."""
+    records = [r for r in map(json.loads, (Path(run) / "log.ndjson").read_text().splitlines()) if "fluid_kinetic" in r]
+    kinds = [k for k in records[0] if k.endswith(("_kinetic", "_potential", "_elastic"))]
+    total = [sum(r[k] for k in kinds) for r in records]
+    return (max(total) - total[0]) / max(sum(r[k] for k in kinds if k.endswith("_kinetic")) for r in records)
 
 
 def read_vtp(path):
