@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "simulation/guarding_walls.hpp"
 #include "simulation/time_step_limits.hpp"
 
 namespace gdesp {

@@ -10,10 +10,6 @@
 
 namespace gdesp {
 
-/// The walls as the guard of the water sees them: particles of free bodies have no say there (no normal), for what the guard
-/// does is not given back to a body.
-BoundaryTable guarding_walls(const SimulationInput& input);
-
 template <class Exec>
 class CoupledSimulation final : public Simulation {
  public:
