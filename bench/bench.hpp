@@ -57,6 +57,13 @@ inline double bytes_each(std::size_t before, long particles) {
   return static_cast<double>(exec::allocated_bytes() - before) / static_cast<double>(particles);
 }
 
+/// To the error stream: what was counted since start_profile().
+inline void print_profile() {
+  for (const exec::ProfileRow& row : exec::profile()) {
+    std::fprintf(stderr, "%-28s %9.4f s %8ld calls\n", row.name.c_str(), row.seconds, row.calls);
+  }
+}
+
 /// usage: PROGRAM SIZE[,SIZE...] THREADS[,THREADS...]: calls run(size, threads) for each.
 template <class Run>
 int for_each_case(int argc, char** argv, const char* sizes, const Run& run) {
@@ -79,9 +86,7 @@ int for_each_case(int argc, char** argv, const char* sizes, const Run& run) {
       run(size, exec::set_threads(static_cast<int>(threads)));
     }
   }
-  for (const exec::ProfileRow& row : exec::profile()) {
-    std::fprintf(stderr, "%-28s %9.4f s %8ld calls\n", row.name.c_str(), row.seconds, row.calls);
-  }
+  print_profile();
   return 0;
 }
 

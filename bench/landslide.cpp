@@ -12,6 +12,7 @@
 #include <cstring>
 #include <string>
 
+#include "bench.hpp"
 #include "core/error.hpp"
 #include "exec/array.hpp"
 #include "exec/backend.hpp"
@@ -104,11 +105,13 @@ int run(const Options& options) {
   const auto simulation = make_simulation(landslide(options.scale), options.device);
   if (!options.run) simulation->advance_to(0.05);   // out of the lattice, into the water
   const Diagnostics before = simulation->diagnostics();
+  bench::start_profile();
   const auto start = std::chrono::steady_clock::now();
   if (options.run) simulation->advance_to(paper_end);
   else for (int k = 0; k < options.steps; ++k) simulation->step(1.0e3);
   const Diagnostics after = simulation->diagnostics();
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  bench::print_profile();
   const double simulated = after.time - before.time, steps = static_cast<double>(after.step - before.step);
   const double substeps = static_cast<double>(after.grain_substeps - before.grain_substeps);
   const double sph = static_cast<double>(after.fluid_particles + after.wall_particles), grains = static_cast<double>(after.grains);

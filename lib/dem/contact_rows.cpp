@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem/contact_rows.hpp"
 
+#include "exec/permute.hpp"
+
 namespace gdesp::dem {
 namespace {
 
@@ -227,20 +229,21 @@ struct BuildRows {
 template <class Exec>
 ContactRows<Exec>::ContactRows(const Exec& exec, bool rolling)
     : exec_(exec), rolling_on_(rolling), range_(exec), old_range_(exec), rows_(exec), old_rows_(exec), rolling_(exec),
-      old_rolling_(exec), search_(exec), overflow_used_(exec) {
+      old_rolling_(exec), overflow_used_(exec) {
   overflow_used_.resize_discard(1);
 }
 
 template <class Exec>
 void ContactRows<Exec>::build(const ClusterSet<Exec>& set, const Index* source, const GrainRecord* records,
-                              const FixedPosition* position, const ListReach& reach, bool first) {
+                              const FixedPosition* position, const ListReach& reach, bool first,
+                              Array<GrainRecord, Exec>& room) {
   range_.swap(old_range_);
   rows_.swap(old_rows_);
   rolling_.swap(old_rolling_);
   const Index slots = set.slots();
   const CellGridView grid = set.view();
-  search_.resize_discard(4 * static_cast<std::size_t>(slots));
-  exec::parallel_for(exec_, "dem::contact_rows", slots, PackSearch{grid, records, position, search_.data()});
+  float* search = exec::room_for<float>(room, 4 * static_cast<std::size_t>(slots));   // places and radii by cluster
+  exec::parallel_for(exec_, "dem::contact_rows", slots, PackSearch{grid, records, position, search});
   overflow_capacity_ = overflow_capacity_ > slots / 4 ? overflow_capacity_ : slots / 4 + 16;
   while (true) {
     const auto total = static_cast<std::size_t>(slots) + static_cast<std::size_t>(overflow_capacity_);
@@ -249,7 +252,7 @@ void ContactRows<Exec>::build(const ClusterSet<Exec>& set, const Index* source, 
     if (rolling_on_) rolling_.resize_discard(total);
     overflow_used_.fill_bytes(0);
     exec::pair_pass(exec_, "dem::contact_rows", set.clusters(),
-                    BuildRows{grid, search_.data(), source, reach, slots, first, old_range_.data(), old_rows_.data(),
+                    BuildRows{grid, search, source, reach, slots, first, old_range_.data(), old_rows_.data(),
                               old_rolling_.data(), range_.data(), rows_.data(), rolling_on_ ? rolling_.data() : nullptr,
                               overflow_used_.data(), overflow_capacity_});
     const Index used = static_cast<Index>(overflow_used_.read(0));

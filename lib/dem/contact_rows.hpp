@@ -27,9 +27,9 @@ class ContactRows {
 
   /// Lists anew for records (slots + 1 of them, the last a dummy) and positions by slot, and takes over the history of
   /// contacts that go on. `source` says where each slot was when the old rows were made (null: where it is now);
-  /// first: there were none.
+  /// first: there were none. What is in `room` is lost.
   void build(const ClusterSet<Exec>& set, const Index* source, const GrainRecord* records, const FixedPosition* position,
-             const ListReach& reach, bool first);
+             const ListReach& reach, bool first, Array<GrainRecord, Exec>& room);
 
   ContactRowsView view() { return {range_.data(), rows_.data(), rolling_on_ ? rolling_.data() : nullptr}; }
   Index row_count() const { return static_cast<Index>(rows_.size()); }
@@ -47,7 +47,6 @@ class ContactRows {
   Array<RowRange, Exec> range_, old_range_;
   Array<ContactRow, Exec> rows_, old_rows_;
   Array<RollingRow, Exec> rolling_, old_rolling_;
-  Array<float, Exec> search_;            // places and radii by cluster
   Array<std::uint32_t, Exec> overflow_used_;
   Index overflow_capacity_ = 0;
 };

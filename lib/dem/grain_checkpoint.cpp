@@ -240,9 +240,10 @@ void GrainSystem<Exec>::restore_lists(const std::vector<RowRange>& range, const 
                                       const std::vector<RollingRow>& rolling,
                                       const std::vector<WallHistory>& wall_history,
                                       const std::vector<float>& quiet_until) {
-  scratch_position_.resize_discard(static_cast<std::size_t>(slots_));
+  Array<FixedPosition, Exec> listed_position(exec_);
+  listed_position.resize_discard(static_cast<std::size_t>(slots_));
   exec::parallel_for(exec_, "dem::restore", slots_,
-                     StartPositions{position_.data(), start_.data(), scratch_position_.data()});
+                     StartPositions{position_.data(), start_.data(), listed_position.data()});
   set_.build(sorted_position_, id_, slots_);
   if (set_.slots() != slots_) {
     throw Error(ErrorKind::input, "checkpoint: the grains do not fit this domain (" + std::to_string(slots_) +
@@ -255,7 +256,7 @@ void GrainSystem<Exec>::restore_lists(const std::vector<RowRange>& range, const 
     walls_.history().assign(wall_history);
     // Asks every grain, as the lists were made from readings that are gone; the readings saved are then put back.
     quiet_until_.fill_bytes(0);
-    walls_.build(set_, scratch_position_, now_.data(), listed_poses_, wall_reach(), false);
+    walls_.build(set_, listed_position, now_.data(), listed_poses_, wall_reach(), false);
     quiet_until_.assign(quiet_until);
   }
   next_.assign(now_.to_host());

@@ -10,20 +10,12 @@
 #include "dem/grain_step.hpp"
 #include "dem/grain_tables.hpp"
 #include "dem/time_step_limits.hpp"
+#include "exec/permute.hpp"
 
 namespace gdesp::dem {
 namespace {
 
 constexpr int largest_batch = 32;   // sub-steps given before their measures are looked at
-
-template <class T>
-struct Gather {
-  const Index* source;
-  const T* from;
-  T* to;
-  T padding;
-  GDESP_HD void operator()(Index slot) const { to[slot] = source[slot] < 0 ? padding : from[source[slot]]; }
-};
 
 GDESP_HD inline GrainRecord padding_record() {
   GrainRecord record{};
@@ -119,8 +111,7 @@ GrainSystem<Exec>::GrainSystem(const Exec& exec, const Domain& domain, const Gra
       contacts_(exec, contact.rolling_friction > 0.0), position_(exec), sorted_position_(exec), id_(exec), group_(exec), now_(exec),
       next_(exec), velocity_(exec), spin_(exec), start_(exec), radius_(exec), mass_(exec), quiet_until_(exec),
       drag_impulse_(exec),
-      measure_(exec), held_(exec), scratch_position_(exec), scratch_id_(exec), scratch_group_(exec),
-      scratch_vector_(exec), scratch_float_(exec) {
+      measure_(exec), held_(exec) {
   const GrainStart state = make_grain_start(domain, grains);
   largest_radius_ = state.largest_radius;
   smallest_radius_ = state.smallest_radius;
@@ -211,14 +202,6 @@ WallReach GrainSystem<Exec>::wall_reach() {
 }
 
 template <class Exec>
-template <class T>
-void GrainSystem<Exec>::gather(Array<T, Exec>& values, Array<T, Exec>& scratch, const T& padding) {
-  shrink_discard(exec_, scratch, set_.slots());
-  exec::parallel_for(exec_, "dem::sort", set_.slots(), Gather<T>{set_.source(), values.data(), scratch.data(), padding});
-  values.swap(scratch);
-}
-
-template <class Exec>
 void GrainSystem<Exec>::synchronize_positions() {
   exec::parallel_for(exec_, "dem::positions", slots_, FollowRecord{now_.data(), position_.data()});
 }
@@ -228,15 +211,16 @@ void GrainSystem<Exec>::sort() {
   set_.build(position_, id_, slots_);
   lost_ += set_.lost();
   slots_ = set_.slots();
-  gather(position_, scratch_position_, FixedPosition{});
-  gather(id_, scratch_id_, no_particle);
-  gather(group_, scratch_group_, std::int32_t{0});
-  gather(velocity_, scratch_vector_, Vec3f{});
-  gather(spin_, scratch_vector_, Vec3f{});
-  gather(quiet_until_, scratch_float_, 0.0f);
+  const Index* source = set_.source();
   shrink_discard(exec_, next_, slots_ + 1);
-  exec::parallel_for(exec_, "dem::sort", slots_ + 1, GatherRecords{set_.source(), now_.data(), slots_, next_.data()});
+  exec::parallel_for(exec_, "dem::sort", slots_ + 1, GatherRecords{source, now_.data(), slots_, next_.data()});
   now_.swap(next_);
+  exec::permute(exec_, position_, next_, source, slots_, FixedPosition{});
+  exec::permute(exec_, id_, next_, source, slots_, no_particle);
+  exec::permute(exec_, group_, next_, source, slots_, std::int32_t{0});
+  exec::permute(exec_, velocity_, next_, source, slots_, Vec3f{});
+  exec::permute(exec_, spin_, next_, source, slots_, Vec3f{});
+  exec::permute(exec_, quiet_until_, next_, source, slots_, 0.0f);
   shrink_discard(exec_, sorted_position_, slots_);
   shrink_discard(exec_, radius_, slots_);
   shrink_discard(exec_, mass_, slots_);
@@ -282,7 +266,7 @@ void GrainSystem<Exec>::rebuild(const std::vector<BodyMoment>& moments, bool sor
   list(moments);
   contacts_.build(set_, sorted_anew ? set_.source() : nullptr, now_.data(), position_.data(),
                   {static_cast<float>(largest_radius_), static_cast<float>(skin_), static_cast<float>(drift_)},
-                  !listed_);
+                  !listed_, next_);
   if (!walls_.empty()) {
     walls_.build(set_, position_, now_.data(), listed_poses_, wall_reach(), !listed_);
   }

@@ -109,8 +109,6 @@ class GrainSystem {
   double moved_since_sorting() const;
   bool stale(const std::vector<BodyMoment>& moments) const;
   float largest_move2() const { return static_cast<float>(0.25 * skin_ * skin_); }   ///< m2, half the skin's square
-  template <class T>
-  void gather(Array<T, Exec>& values, Array<T, Exec>& scratch, const T& padding);
   // Bodies; number 0 are the walls at rest.
   void choose_skin(double moved);
   double largest_body_move(const std::vector<BodyMoment>& moments) const;
@@ -156,7 +154,7 @@ class GrainSystem {
   Array<FixedPosition, Exec> sorted_position_;    ///< when set_ was built: what a checkpoint needs to build it again
   Array<std::uint32_t, Exec> id_;
   Array<std::int32_t, Exec> group_;
-  Array<GrainRecord, Exec> now_, next_;
+  Array<GrainRecord, Exec> now_, next_;           ///< next_ is room for what sorting and listing need
   Array<Vec3f, Exec> velocity_, spin_;            ///< at half steps
   Array<Vec3<std::int32_t>, Exec> start_;         ///< fraction bits when the lists were made
   Array<float, Exec> radius_, mass_;
@@ -165,12 +163,6 @@ class GrainSystem {
   Array<Vec3d, Exec> drag_impulse_;
   Array<exec::Largest, Exec> measure_;            ///< two a sub-step of a batch: of the walls, of the grains
   Array<std::int32_t, Exec> held_;
-
-  Array<FixedPosition, Exec> scratch_position_;
-  Array<std::uint32_t, Exec> scratch_id_;
-  Array<std::int32_t, Exec> scratch_group_;
-  Array<Vec3f, Exec> scratch_vector_;
-  Array<float, Exec> scratch_float_;
 };
 
 }  // namespace gdesp::dem

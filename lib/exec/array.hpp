@@ -66,6 +66,8 @@ class Array {
     }
     size_ = size;
   }
+  /// Gives the memory back.
+  void free() { Array(exec_).swap(*this); }
   /// Sets every byte.
   void fill_bytes(int value) { if (size_) detail::fill_bytes(exec_, data_, value, size_ * sizeof(T)); }
   void assign(const std::vector<T>& host) {

@@ -203,8 +203,8 @@ int bits_for(std::uint64_t largest) {
 
 template <class Exec>
 ClusterSet<Exec>::ClusterSet(const Exec& exec, const Domain& domain, double cell_size)
-    : exec_(exec), domain_(domain), keys_(exec), keys_scratch_(exec), order_(exec), order_scratch_(exec), head_(exec),
-      ordinal_(exec), pencil_first_(exec), padded_count_(exec), padded_begin_(exec), tile_head_(exec),
+    : exec_(exec), domain_(domain), keys_(exec), keys_scratch_(exec), order_(exec), order_scratch_(exec),
+      pencil_first_(exec), padded_count_(exec), padded_begin_(exec), tile_head_(exec),
       tile_ordinal_(exec), source_(exec), tile_slot_(exec), cell_begin_(exec), block_(exec), cluster_tile_(exec) {
   for (int axis = 0; axis < 3; ++axis) {
     cells_[axis] = std::max(1, static_cast<std::int32_t>(domain.tile_size[axis] / cell_size + 1e-6));
@@ -235,7 +235,7 @@ void ClusterSet<Exec>::build(const Array<FixedPosition, Exec>& position, const A
   const KeyMaker maker{domain_, cells_, pencil_bits_, tiles};
   const int tile_shift = x_bits + pencil_bits_;
   const auto n = static_cast<std::size_t>(old_slots);
-  keys_.resize_discard(n);
+  keys_.resize_discard(n + 1);   // one more: see head below
   order_.resize_discard(n);
   exec::parallel_for(exec_, "sort::keys", old_slots,
                      MakeKeys{maker, position.data(), id.data(), keys_.data(), order_.data()});
@@ -247,16 +247,16 @@ void ClusterSet<Exec>::build(const Array<FixedPosition, Exec>& position, const A
                    tile_shift + tile_bits_);
 
   const auto count = static_cast<std::size_t>(particles_);
-  head_.resize_discard(count + 1);
-  ordinal_.resize_discard(count + 1);
-  exec::parallel_for(exec_, "sort::heads", particles_, MarkPencilHeads{keys_.data(), head_.data()});
-  const Index pencils = exec::exclusive_scan(exec_, "sort::scan", head_.data(), ordinal_.data(), particles_);
+  Index* head = reinterpret_cast<Index*>(keys_scratch_.data());   // idle once the keys are sorted
+  Index* ordinal = head + count + 1;
+  exec::parallel_for(exec_, "sort::heads", particles_, MarkPencilHeads{keys_.data(), head});
+  const Index pencils = exec::exclusive_scan(exec_, "sort::scan", head, ordinal, particles_);
   const auto p = static_cast<std::size_t>(pencils);
   for (auto* array : {&pencil_first_, &padded_count_, &padded_begin_, &tile_head_, &tile_ordinal_}) {
     array->resize_discard(p + 1);
   }
   exec::parallel_for(exec_, "sort::heads", particles_,
-                     WritePencilFirsts{head_.data(), ordinal_.data(), pencil_first_.data()});
+                     WritePencilFirsts{head, ordinal, pencil_first_.data()});
   exec::parallel_for(exec_, "sort::heads", pencils,
                      CountPadded{keys_.data(), pencil_first_.data(), pencils, particles_, tile_shift,
                                  padded_count_.data(), tile_head_.data()});
@@ -274,11 +274,20 @@ void ClusterSet<Exec>::build(const Array<FixedPosition, Exec>& position, const A
                      WriteTileSlots{keys_.data(), pencil_first_.data(), tile_head_.data(), tile_ordinal_.data(),
                                     tile_shift, tile_slot_.data()});
   exec::parallel_for(exec_, "sort::place", particles_,
-                     PlaceParticles{maker, keys_.data(), order_.data(), position.data(), head_.data(), ordinal_.data(),
+                     PlaceParticles{maker, keys_.data(), order_.data(), position.data(), head, ordinal,
                                     pencil_first_.data(), padded_begin_.data(), tile_slot_.data(), particles_,
                                     tile_shift, source_.data(), cell_begin_.data(), cluster_tile_.data()});
   block_.resize_discard(8 * static_cast<std::size_t>(used_tiles));
   exec::parallel_for(exec_, "sort::blocks", 8 * used_tiles, MarkBlocks{view(), block_.data()});
+}
+
+template <class Exec>
+void ClusterSet<Exec>::free_workspace() {
+  keys_.free();
+  keys_scratch_.free();
+  for (auto* array : {&order_, &order_scratch_, &pencil_first_, &padded_count_, &padded_begin_, &tile_head_, &tile_ordinal_}) {
+    array->free();
+  }
 }
 
 template <class Exec>

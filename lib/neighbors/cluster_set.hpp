@@ -49,6 +49,9 @@ class ClusterSet {
   /// gathers (with Domain::wrapped for positions).
   void build(const Array<FixedPosition, Exec>& position, const Array<std::uint32_t, Exec>& id, Index old_slots);
 
+  /// Gives back the memory that only build() uses, of a set that will not be built again.
+  void free_workspace();
+
   Index slots() const { return slots_; }              ///< 4 x clusters
   Index clusters() const { return slots_ / exec::cluster_size; }
   Index particles() const { return particles_; }      ///< real ones
@@ -67,7 +70,7 @@ class ClusterSet {
   int pencil_bits_ = 0, tile_bits_ = 0;
   Index slots_ = 0, particles_ = 0, lost_ = 0;
   Array<std::uint64_t, Exec> keys_, keys_scratch_;
-  Array<Index, Exec> order_, order_scratch_, head_, ordinal_, pencil_first_, padded_count_, padded_begin_;
+  Array<Index, Exec> order_, order_scratch_, pencil_first_, padded_count_, padded_begin_;
   Array<Index, Exec> tile_head_, tile_ordinal_;
   Array<Index, Exec> source_, tile_slot_, cell_begin_;
   Array<std::uint64_t, Exec> block_;

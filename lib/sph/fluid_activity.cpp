@@ -64,11 +64,12 @@ template <class Exec>
 void FluidSystem<Exec>::start_sleeping(double t, const Movers& movers) {
   sleeps_ = true;
   activity_.set_sleeping();
-  scratch_vector_.resize_discard(static_cast<std::size_t>(slots()));
+  Array<Vec3f, Exec> acceleration(exec_);
+  acceleration.resize_discard(static_cast<std::size_t>(slots()));
   exec::parallel_for(exec_, "activity::accelerations", slots(),
-                     Accelerations{state_view(), id_.data(), scratch_vector_.data()});
+                     Accelerations{state_view(), id_.data(), acceleration.data()});
   activity_.begin();
-  activity_.add_accelerations(position_.data(), scratch_vector_.data(), id_.data(), slots());
+  activity_.add_accelerations(position_.data(), acceleration.data(), id_.data(), slots());
   activity_.judge(t, true);
   update_activity(t, movers);
   build_lists();

@@ -28,14 +28,10 @@ struct GatherRates {
   }
 };
 
-struct GatherWrapped {
+struct WrapPosition {
   Domain domain;
-  const FixedPosition* from;
-  const Index* source;
-  FixedPosition* to;
-  GDESP_HD void operator()(Index s) const {
-    to[s] = source[s] >= 0 ? domain.wrapped(from[source[s]]) : FixedPosition{};
-  }
+  FixedPosition* position;
+  GDESP_HD void operator()(Index s) const { position[s] = domain.wrapped(position[s]); }
 };
 
 struct KeepFilling {
@@ -128,9 +124,7 @@ FluidSystem<Exec>::FluidSystem(const Exec& exec, const Domain& domain, const Flu
       record_(exec), rate_(exec), wall_position_(exec), wall_start_(exec), wall_velocity_(exec), wall_body_(exec),
       wall_density_(exec), wall_friction_(exec), wall_id_(exec), wall_record_(exec), wall_rate_(exec),
       wall_normal_(exec), wall_depth_(exec), wall_surface_(exec), near_wall_(exec), wall_ghost_(exec), spacing_(exec),
-      near_surface_(exec), own_pressure_(exec), wall_bodies_(exec), body_asked_(exec), body_sum_(exec), body_force_(exec),
-      scratch_position_(exec), scratch_vector_(exec), scratch_float_(exec), scratch_uint_(exec),
-      scratch_int_(exec), filling_(exec) {
+      near_surface_(exec), own_pressure_(exec), wall_bodies_(exec), body_asked_(exec), body_sum_(exec), body_force_(exec), filling_(exec) {
   start_fluid(fluid);
   start_walls(walls);
   sort_walls();
@@ -168,7 +162,6 @@ void FluidSystem<Exec>::start_walls(const BoundaryTable& walls) {
   std::transform(walls.position.begin(), walls.position.end(), position.begin(),
                  [&](const Vec3d& r) { return domain_.fixed(r); });
   wall_position_.assign(position);
-  wall_start_.assign(position);
   wall_velocity_.assign(std::vector<Vec3f>(n));
   wall_body_.assign(value_or(walls.body, n, 0));
   wall_friction_.assign(value_or(walls.friction, n, 0.0f));
@@ -182,6 +175,7 @@ void FluidSystem<Exec>::start_walls(const BoundaryTable& walls) {
              std::any_of(walls.friction.begin(), walls.friction.end(), [](float f) { return f > 0.0f; });
   wall_id_.assign(numbered(n));
   walls_move_ = std::any_of(walls.body.begin(), walls.body.end(), [](std::int32_t b) { return b > 0; });
+  if (walls_move_) wall_start_.assign(position);
 }
 
 template <class Exec>
@@ -190,22 +184,22 @@ void FluidSystem<Exec>::sort_fluid() {
   lost_ += set_.lost();
   const Index n = set_.slots();
   const Index* source = set_.source();
-  scratch_position_.resize_discard(static_cast<std::size_t>(n));
-  exec::parallel_for(exec_, "sort::gather", n,
-                     GatherWrapped{domain_, position_.data(), source, scratch_position_.data()});
-  position_.swap(scratch_position_);
-  exec::permute(exec_, velocity_, scratch_vector_, source, n, Vec3f{});
-  exec::permute(exec_, density_, scratch_float_, source, n, 0.0f);
-  exec::permute(exec_, mass_share_, scratch_float_, source, n, 1.0f);
-  exec::permute(exec_, id_, scratch_uint_, source, n, no_particle);
-  if (coupled_) {
-    exec::permute(exec_, porosity_, scratch_float_, source, n, 1.0f);
-    exec::permute(exec_, external_, scratch_vector_, source, n, Vec3f{});
+  record_.resize_discard(static_cast<std::size_t>(set_.clusters()) * record_size);   // the room for all below
+  exec::permute(exec_, position_, record_, source, n, FixedPosition{});
+  if (domain_.periodic[0] || domain_.periodic[1] || domain_.periodic[2]) {
+    exec::parallel_for(exec_, "sort::gather", n, WrapPosition{domain_, position_.data()});
   }
-  scratch_float_.resize_discard(4 * static_cast<std::size_t>(n));
-  exec::parallel_for(exec_, "sort::gather", n, GatherRates{rate_.data(), source, scratch_float_.data()});
-  rate_.swap(scratch_float_);
-  record_.resize_discard(static_cast<std::size_t>(set_.clusters()) * record_size);
+  exec::permute(exec_, velocity_, record_, source, n, Vec3f{});
+  exec::permute(exec_, density_, record_, source, n, 0.0f);
+  exec::permute(exec_, mass_share_, record_, source, n, 1.0f);
+  exec::permute(exec_, id_, record_, source, n, no_particle);
+  if (coupled_) {
+    exec::permute(exec_, porosity_, record_, source, n, 1.0f);
+    exec::permute(exec_, external_, record_, source, n, Vec3f{});
+  }
+  exec::parallel_for(exec_, "sort::gather", n, GatherRates{rate_.data(), source, record_.data()});
+  rate_.resize_discard(4 * static_cast<std::size_t>(n));
+  exec::parallel_for(exec_, "sort::gather", 4 * n, exec::CopyEach<float>{record_.data(), rate_.data()});
   if (guarded_) near_wall_.resize_discard(6 * static_cast<std::size_t>(n));
   if (needs_spacing()) {
     spacing_.resize_discard(4 * static_cast<std::size_t>(n));
@@ -220,30 +214,36 @@ void FluidSystem<Exec>::sort_walls() {
   wall_set_.build(wall_position_, wall_id_, static_cast<Index>(wall_position_.size()));
   const Index n = wall_set_.slots();
   const Index* source = wall_set_.source();
-  exec::permute(exec_, wall_position_, scratch_position_, source, n, FixedPosition{});
-  exec::permute(exec_, wall_start_, scratch_position_, source, n, FixedPosition{});
-  exec::permute(exec_, wall_velocity_, scratch_vector_, source, n, Vec3f{});
-  exec::permute(exec_, wall_body_, scratch_int_, source, n, 0);
-  exec::permute(exec_, wall_friction_, scratch_float_, source, n, 0.0f);
-  exec::permute(exec_, wall_density_, scratch_float_, source, n, 0.0f);
-  exec::permute(exec_, wall_id_, scratch_uint_, source, n, no_particle);
+  wall_record_.resize_discard(static_cast<std::size_t>(wall_set_.clusters()) * record_size);   // the room for all below
+  exec::permute(exec_, wall_position_, wall_record_, source, n, FixedPosition{});
+  if (walls_move_) exec::permute(exec_, wall_start_, wall_record_, source, n, FixedPosition{});
+  exec::permute(exec_, wall_velocity_, wall_record_, source, n, Vec3f{});
+  exec::permute(exec_, wall_body_, wall_record_, source, n, 0);
+  exec::permute(exec_, wall_friction_, wall_record_, source, n, 0.0f);
+  exec::permute(exec_, wall_density_, wall_record_, source, n, 0.0f);
+  exec::permute(exec_, wall_id_, wall_record_, source, n, no_particle);
   if (guarded_) {
-    exec::permute(exec_, wall_normal_, scratch_vector_, source, n, Vec3f{});
-    exec::permute(exec_, wall_depth_, scratch_float_, source, n, 0.0f);
+    exec::permute(exec_, wall_normal_, wall_record_, source, n, Vec3f{});
+    exec::permute(exec_, wall_depth_, wall_record_, source, n, 0.0f);
     wall_surface_.resize_discard(4 * static_cast<std::size_t>(n));
     exec::parallel_for(exec_, "sort::gather", n,
                        SpreadSurface{wall_normal_.data(), wall_depth_.data(), wall_surface_.data()});
   }
-  wall_record_.resize_discard(static_cast<std::size_t>(wall_set_.clusters()) * record_size);
   if (no_slip_) {
     wall_ghost_.resize_discard(4 * static_cast<std::size_t>(n));
     wall_ghost_.fill_bytes(0);
   }
-  wall_rate_.resize_discard(static_cast<std::size_t>(n));
-  wall_rate_.fill_bytes(0);
+  if (!parameters_.extrapolated_walls) {
+    wall_rate_.resize_discard(static_cast<std::size_t>(n));
+    wall_rate_.fill_bytes(0);
+  }
   exec::parallel_for(exec_, "sph::walls_reset", n,
                      EvolvedWallReset{wall_density_.data(), parameters_.paper_form, wall_record_.data()});
   pack_walls();
+  if (walls_move_) return;
+  wall_set_.free_workspace();
+  wall_normal_.free();
+  wall_depth_.free();
 }
 
 template <class Exec>
@@ -307,10 +307,11 @@ void FluidSystem<Exec>::reset_coupling() {
 template <class Exec>
 void FluidSystem<Exec>::fill_pores(bool first) {
   if (first) {
-    scratch_float_.resize_discard(2 * static_cast<std::size_t>(slots()));
-    lattice_share_pass(scratch_float_.data());
+    Array<float, Exec> share(exec_);
+    share.resize_discard(2 * static_cast<std::size_t>(slots()));
+    lattice_share_pass(share.data());
     filling_.resize_discard(2 * static_cast<std::size_t>(slots()));
-    exec::parallel_for(exec_, "sph::keep_filling", slots(), KeepFilling{density_.data(), scratch_float_.data(), filling_.data()});
+    exec::parallel_for(exec_, "sph::keep_filling", slots(), KeepFilling{density_.data(), share.data(), filling_.data()});
   }
   exec::parallel_for(exec_, "sph::fill_pores", slots(),
                      FillPores{id_.data(), porosity_.data(), filling_.data(), density_.data(), mass_share_.data()});

@@ -203,14 +203,14 @@ class FluidSystem {
   Array<float, Exec> rate_;                     ///< ax ay az dD, 4 each, per cluster: m/s2 and 1/s
 
   // Walls, by slot.
-  Array<FixedPosition, Exec> wall_position_, wall_start_;
+  Array<FixedPosition, Exec> wall_position_, wall_start_;   ///< the latter where walls move
   Array<Vec3f, Exec> wall_velocity_;
   Array<std::int32_t, Exec> wall_body_;
   Array<float, Exec> wall_density_;
   Array<float, Exec> wall_friction_;            ///< 1: no slip, 0: free slip
   Array<std::uint32_t, Exec> wall_id_;
   Array<float, Exec> wall_record_, wall_rate_;
-  Array<Vec3f, Exec> wall_normal_;              ///< into the water; 0: unknown
+  Array<Vec3f, Exec> wall_normal_;              ///< into the water; 0: unknown. Kept, as depths are, where walls move
   Array<float, Exec> wall_depth_;               ///< m below the surface
   Array<float, Exec> wall_surface_;             ///< nx ny nz depth (m), 4 each, per cluster
   Array<float, Exec> near_wall_;                ///< of the water: six rows of 4 per cluster (sph/wall_guard.hpp)
@@ -225,12 +225,6 @@ class FluidSystem {
   Array<std::int64_t, Exec> body_sum_;
   Array<float, Exec> body_force_;
 
-  // Scratch for permutations, one per element size.
-  Array<FixedPosition, Exec> scratch_position_;
-  Array<Vec3f, Exec> scratch_vector_;
-  Array<float, Exec> scratch_float_;
-  Array<std::uint32_t, Exec> scratch_uint_;
-  Array<std::int32_t, Exec> scratch_int_;
   Array<float, Exec> filling_;                  ///< while pores are filled: true D, lattice share, by slot
   bool walls_move_ = false;
 };
