@@ -84,7 +84,8 @@ void fill_bytes(const OpenMP&, void* p, int value, std::size_t bytes) {
 }  // namespace detail
 
 int set_threads(int threads) {
-  if (threads <= 0) threads = omp_get_num_procs();
+  static const int given = omp_get_max_threads();  // before anybody sets it: OMP_NUM_THREADS, else all cores
+  if (threads <= 0) threads = given;
   omp_set_num_threads(threads);
   return threads;
 }
