@@ -19,7 +19,7 @@ import tempfile
 EXIT_CODES = {0, 2, 3, 4, 5}
 COMMANDS = {"surge-analyze": ["runup", "front", "profile", "gauge", "slide", "energy", "surface", "map", "compare", "converge", "tradeoff",
                               "report", "render"]}
-VALUES = [b"", b"-", b"--", b"-1", b"0", b"1", b"0.5", b"1e999", b"-1e-400", b"nan", b"inf", b"9" * 40, b"2147483648", b"x", b"\xff\xfe", b"\xc3\xa9",
+VALUES = [b"", b"-", b"--", b"-1", b"0", b"1", b"0.5", b"1e999", b"-1e-400", b"nan", b"inf", b"9" * 40, b"2147483648", b"2147483647", b"100000", b"x", b"\xff\xfe", b"\xc3\xa9",
           b"a=b", b"=", b"=1", b"numerics.cfl=", b"numerics.cfl=x", b"numerics.cfl=[1", b"title='a'", b"resolution.dp=-1", b"1,2", b"1,2,3,4", b",,",
           b"../out", b"/", b"/dev/null", b"/proc/self/mem", b".", b"junk.toml", b"junk.csv", b"junk.case", b"empty", b"cpu", b"cuda:99999999999", b"cuda:-1",
           b"json", b"text", b"accurate", b"%s%n", b"a\nb", b"5%", b"10min", b"-5%", b"1e30h", b"A" * 5000]
