@@ -16,6 +16,7 @@
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include <algorithm>
 #include <string_view>
 
 #include "core/error.hpp"
