@@ -38,6 +38,17 @@ class Rows:
         self.add(metric, unit, value, reference, value / reference - 1.0, band)
 
 
+def picture(run, name, x, y, curves, reference, measured=True, key="top right"):
+    """Keeps curves for a picture of docs/validation.md (validation_pictures.py): RUN/curves/NAME.json.
+
+    `curves`, `reference`: label -> [(x, y), ...], the run's and what it is compared with; `x`, `y`: titles of the axes with
+    units; `measured`: drawn as points, else as a line; `key`: where gnuplot puts the legend."""
+    folder = Path(run) / "curves"
+    folder.mkdir(exist_ok=True)
+    (folder / f"{name}.json").write_text(json.dumps(
+        {"x": x, "y": y, "run": curves, "reference": reference, "measured": measured, "key": key}))
+
+
 def analyze(command, run, *options):
     """Rows of a surge-analyze table: numbers under the names of the columns without their units."""
     text = subprocess.run(["surge-analyze", command, str(run), "--quiet", *options], stdout=subprocess.PIPE, check=True,

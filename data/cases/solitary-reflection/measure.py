@@ -9,6 +9,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "scripts"))
 import measure_tools as tools
 
 DEPTH, HEIGHT, GRAVITY = 0.3, 0.06, 9.81
+RUN_UP = DEPTH * (2 * 0.2 + 0.2 ** 2 / 2 + 0.75 * 0.2 ** 3)  # m, of the wave as ordered
 
 run = tools.run_argument()
 rows = tools.Rows()
@@ -26,6 +27,8 @@ def crest(curve):
     return t1 + offset * (t2 - t1), b - 0.25 * (a - c) * offset
 
 
+tools.picture(run, "gauges", "t [s]", "rise at 10 d from the piston and at the wall [m]", {"far": gauges["far"], "wall": gauges["wall"]},
+              {"theory: 2 e + e^2/2 + 3 e^3/4": [(0.0, RUN_UP), (gauges["wall"][-1][0], RUN_UP)]}, measured=False, key="top left")
 first = {name: crest([(t, z) for t, z in gauges[name] if t < 4.0]) for name in ("near", "far")}
 height = first["far"][1]
 e = height / DEPTH
