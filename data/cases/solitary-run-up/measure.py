@@ -13,8 +13,7 @@ DEPTH, HEIGHT, COTANGENT, GRAVITY = 0.3, 0.03, 5.0, 9.81
 run = tools.run_argument()
 rows = tools.Rows()
 # The crest passes the gauge, 0.3 m before the toe, long before the reflected wave is back.
-passing = [row["rise"] for row in tools.analyze("gauge", run) if row["t"] < 5.0]
-height = max(passing)
+_, height = tools.crest([(row["t"], row["rise"]) for row in tools.analyze("gauge", run) if row["t"] < 5.0])
 rows.relative("height of the wave at the toe", "m", height, HEIGHT, 0.05)
 climb = [row for row in tools.analyze("runup", run) if row["x"] > 4.0 or math.isnan(row["x"])]
 run_up = max(row["run_up"] for row in climb)

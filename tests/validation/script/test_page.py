@@ -6,6 +6,7 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "scripts"))
+import measure_tools as tools
 import validation_budgets as budgets
 import validation_page as page
 
@@ -32,6 +33,15 @@ class Orders(unittest.TestCase):
     def test_no_order_without_monotone_convergence_or_with_an_exact_value(self):
         self.assertIsNone(page.observed_order([0.04, 0.02, 0.01], [1.0, 1.2, 1.1]))
         self.assertIsNone(page.order_of_error([0.04, 0.02, 0.01], [0.1, 0.0, 0.1]))
+
+
+class Crest(unittest.TestCase):
+    def test_crest_of_a_noisy_wave(self):
+        curve = [(0.01 * k, math.cosh(2.0 * (0.01 * k - 1.203)) ** -2 + 0.02 * (-1) ** k) for k in range(300)]
+        time, height = tools.crest(curve)
+        self.assertAlmostEqual(time, 1.203, delta=0.003)
+        self.assertAlmostEqual(height, 1.0, delta=0.006)
+        self.assertGreater(max(z for _, z in curve), 1.015)
 
 
 class Table(unittest.TestCase):
