@@ -16,7 +16,6 @@
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
-#include <algorithm>
 #include <string_view>
 
 #include "core/error.hpp"
@@ -53,7 +52,7 @@ vtkStandardNewMacro(MessageCatcher);
 std::string told(const std::string& messages) {
   const std::size_t mark = messages.find("): ");
   std::string text = mark == std::string::npos ? messages : messages.substr(mark + 3);
-  text.erase(std::min(text.find('\n'), text.size()));
+  text = text.substr(0, text.find('\n'));
   return text.empty() ? "it is damaged" : text;
 }
 

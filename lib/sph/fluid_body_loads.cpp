@@ -9,6 +9,7 @@
 
 #include "sph/fluid_system.hpp"
 #include "sph/pressure_and_viscosity.hpp"
+#include "sph/wall_extrapolation.hpp"
 
 namespace gdesp::sph {
 namespace {
@@ -42,10 +43,11 @@ struct WallForces {
     for_each_cluster(list, c, [&](Index j, const Vec3f& shift) {
       const float* rj = fluid + record_offset(j);
       const float* Aj = own_pressure ? own_pressure + 4 * static_cast<std::int64_t>(j) : rj + 28;
+      const Real A_f = lanes.load_j(Aj);
       add_fluid_pair<true, false, Kind, false>(
           law, x + Real(shift.x) - lanes.load_j(rj), y + Real(shift.y) - lanes.load_j(rj + 4),
           z + Real(shift.z) - lanes.load_j(rj + 8), vx - lanes.load_j(rj + 16), vy - lanes.load_j(rj + 20),
-          vz - lanes.load_j(rj + 24), A, lanes.load_j(Aj), lanes.load_j(rj + 12), friction, rates);
+          vz - lanes.load_j(rj + 24), pressing_wall(A, A_f), A_f, lanes.load_j(rj + 12), friction, rates);
     });
     float* out = force + 12 * static_cast<std::int64_t>(c);
     const Real factor = Real(scale) * B;

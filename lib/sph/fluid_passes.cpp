@@ -36,11 +36,13 @@ struct FluidPass {
                             const typename Lanes::Real& friction, const Vec3f& shift,
                             FluidRates<typename Lanes::Real>& rates) const {
     using Real = typename Lanes::Real;
+    Real A_j = lanes.load_j(rj + row_A);
+    if constexpr (Wall) A_j = pressing_wall(A_j, i.A);
     add_fluid_pair<WithMomentum, WithContinuity, Kind, !Wall>(
         law, i.x + Real(shift.x) - lanes.load_j(rj + row_x), i.y + Real(shift.y) - lanes.load_j(rj + row_y),
         i.z + Real(shift.z) - lanes.load_j(rj + row_z), i.vx - lanes.load_j(vj),
-        i.vy - lanes.load_j(vj + 4), i.vz - lanes.load_j(vj + 8), i.A, lanes.load_j(rj + row_A),
-        lanes.load_j(rj + row_B), friction, rates);
+        i.vy - lanes.load_j(vj + 4), i.vz - lanes.load_j(vj + 8), i.A, A_j, lanes.load_j(rj + row_B), friction,
+        rates);
   }
 
   template <class Lanes>
@@ -166,9 +168,9 @@ struct FinishWalls {
     }
     const float weight = r[row_B];
     if (ghost) mirror(16 * static_cast<std::int64_t>(c) + slot % exec::cluster_size, r, weight, friction[slot]);
-    const float A = weight > 1.0e-6f ? real::max(r[row_A] / weight, 0.0f) : 0.0f;
+    const float A = weight > 1.0e-6f ? r[row_A] / weight : 0.0f;
     r[row_A] = A;
-    r[row_B] = 1.0f / (1.0f + tait_density(A));
+    r[row_B] = 1.0f / (1.0f + tait_density(real::max(A, 0.0f)));
   }
   GDESP_HD void mirror(std::int64_t at, const float* r, float weight, float has_friction) const {
     for (int row = 0; row < 12; row += 4) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // @eq sph.wall.extrapolation
-//   P_w = ( sum_f P_f W_wf + (g - a_w) . sum_f rho_f (r_w - r_f) W_wf ) / sum_f W_wf;  rho_w from P_w by the Tait law.
-//   P_w: pressure of a wall particle [Pa], f: fluid particles, a_w: acceleration of the wall [m/s2]. Not below zero:
-//   a wall does not pull. Source: Adami, Hu, Adams (2012), J. Comput. Phys. 231, 7057, eqs 27-28,
+//   P_w = ( sum_f P_f W_wf + (g - a_w) . sum_f rho_f (r_w - r_f) W_wf ) / sum_f W_wf;  rho_w from max(P_w, 0) by the Tait law.
+//   P_w: pressure of a wall particle [Pa], f: fluid particles, a_w: acceleration of the wall [m/s2]. A wall does not pull:
+//   in a pair P_w counts as max(P_w, min(0, -P_f)). (Cut at zero whatever P_f, a wall above still water pushes the water
+//   at the shore down the slope.) Source: Adami, Hu, Adams (2012), J. Comput. Phys. 231, 7057, eqs 27-28,
 //   doi:10.1016/j.jcp.2012.05.005.
 // @eq sph.wall.no-slip
 //   v_ghost = 2 v_w - sum_f v_f W_wf / sum_f W_wf,  seen by the viscosity alone; continuity sees v_w.
@@ -23,6 +24,14 @@ struct WallSums {
   Real rx{0.0f}, ry{0.0f}, rz{0.0f};  ///< sum (r_w - r_f) W / alpha, m
   Real vx{0.0f}, vy{0.0f}, vz{0.0f};  ///< sum v_f W / alpha, m/s; of no-slip walls
 };
+
+/// A of a wall particle as water of A_f feels it: not so far below zero that the pair is pulled together.
+template <class Real>
+GDESP_HD inline Real pressing_wall(const Real& A_w, const Real& A_f) {
+  using real::max;
+  using real::min;
+  return max(A_w, min(Real(0.0f), Real(0.0f) - A_f));
+}
 
 /// Adds fluid particle f. r = r_w - r_f. Returns W / alpha.
 template <class Real>

@@ -213,6 +213,29 @@ TEST(WallGuard, crest_of_a_dam_does_not_speak_for_water_beside_its_face) {
   EXPECT_GT(sums.nx, 20.0f * sums.nz);
 }
 
+TEST(WallGuard, far_face_of_a_ridge_does_not_speak_for_water_on_this_side) {
+  // dp = 16 m. A ridge thinner than that, whose one particle faces away (-y); behind it the dam faces the water (+y).
+  WallGuardSums<float> sums;
+  const float v[3] = {0, 0, 0}, away[3] = {0.0f, -1.0f, 0.0f}, out[3] = {0.0f, 1.0f, 0.0f};
+  const float ridge[3] = {0.0f, 16.0f, 0.0f}, dam[3] = {0.0f, 32.0f, 0.0f};
+  add_wall_guard(1.0f / 32.0f, ridge, away, 1.0f, v, sums);
+  add_wall_guard(1.0f / 32.0f, dam, out, 4.0f, v, sums);
+  EXPECT_NEAR(sums.distance / sums.weight, 28.0f, 1e-4f);
+  EXPECT_EQ(guarded_velocity({}, {sums.weight, sums.distance, sums.nx, sums.ny, sums.nz, sums.wall_speed}, 0.02f, 400.0f).y, 0.0f);
+  // Water that is inside is told so: 0.4 dp from the wall particle, 0.6 dp below the surface.
+  WallGuardSums<float> within;
+  const float close[3] = {0.0f, -6.4f, 0.0f};
+  add_wall_guard(1.0f / 32.0f, close, out, 3.2f, v, within);
+  EXPECT_NEAR(within.distance / within.weight, -9.6f, 1e-4f);
+}
+
+TEST(WallPair, a_wall_above_still_water_neither_pushes_nor_pulls) {
+  EXPECT_EQ(pressing_wall(-0.3f, 0.3f), -0.3f) << "the linear field of still water: the pair's sum is zero";
+  EXPECT_EQ(pressing_wall(-0.5f, 0.3f), -0.3f) << "never pulls";
+  EXPECT_EQ(pressing_wall(0.2f, 0.3f), 0.2f);
+  EXPECT_EQ(pressing_wall(-0.2f, -0.3f), 0.0f) << "water in tension finds the wall at zero";
+}
+
 TEST(RecordPacker, water_in_tension_has_no_pressure_where_it_cavitates) {
   Domain domain{};
   domain.tile_size = {1, 1, 1};
