@@ -38,6 +38,17 @@ class Rows:
         self.add(metric, unit, value, reference, value / reference - 1.0, band)
 
 
+def picture(run, name, x, y, curves, reference, measured=True, key="top right"):
+    """Keeps curves for a picture of docs/validation.md (validation_pictures.py): RUN/curves/NAME.json.
+
+    `curves`, `reference`: label -> [(x, y), ...], the run's and what it is compared with; `x`, `y`: titles of the axes with
+    units; `measured`: drawn as points, else as a line; `key`: where gnuplot puts the legend."""
+    folder = Path(run) / "curves"
+    folder.mkdir(exist_ok=True)
+    (folder / f"{name}.json").write_text(json.dumps(
+        {"x": x, "y": y, "run": curves, "reference": reference, "measured": measured, "key": key}))
+
+
 def analyze(command, run, *options):
     """Rows of a surge-analyze table: numbers under the names of the columns without their units."""
     text = subprocess.run(["surge-analyze", command, str(run), "--quiet", *options], stdout=subprocess.PIPE, check=True,
@@ -113,6 +124,34 @@ def frame_near(run, time, kind="fluid"):
     """(time, arrays) of the frame nearest to a time."""
     t, path = min(frames(run, kind), key=lambda frame: abs(frame[0] - time))
     return t, read_vtp(path)
+
+
+def crest(curve, share=0.8):
+    """(time, height) of a wave's crest in [(t, height), ...]: the parabola fitted by least squares to what is above `share` of the highest
+    point, without a gap around it. The highest reading alone is the crest with the noise of the surface on top."""
+    top = max(range(len(curve)), key=lambda k: curve[k][1])
+    low = high = top
+    while low > 0 and curve[low - 1][1] >= share * curve[top][1]:
+        low -= 1
+    while high + 1 < len(curve) and curve[high + 1][1] >= share * curve[top][1]:
+        high += 1
+    points = curve[low:high + 1]
+    if len(points) < 3:
+        return curve[top]
+    mean = sum(t for t, _ in points) / len(points)
+    power = [sum((t - mean) ** p for t, _ in points) for p in range(5)]
+    moment = [sum((t - mean) ** p * z for t, z in points) for p in range(3)]
+    # Normal equations of a + b x + c x^2, by Cramer's rule.
+    matrix = [[power[i + j] for j in range(3)] for i in range(3)]
+    a, b, c = (determinant([[moment[i] if j == k else matrix[i][j] for j in range(3)] for i in range(3)]) / determinant(matrix) for k in range(3))
+    if c >= 0.0:
+        return curve[top]
+    return mean - 0.5 * b / c, a - 0.25 * b * b / c
+
+
+def determinant(m):
+    """Of three rows of three."""
+    return sum(m[0][k] * (m[1][(k + 1) % 3] * m[2][(k + 2) % 3] - m[1][(k + 2) % 3] * m[2][(k + 1) % 3]) for k in range(3))
 
 
 def connected_front(grains, direction=0, gap=0.25, depth=0.0):

@@ -78,7 +78,7 @@ ConnectedWater find_connected_water(const ColumnGrid& grid, double dp, const Con
   for (std::size_t s = 0; s < n; ++s) {
     if (!core[s]) continue;
     for_each_neighbour(grid, s, link, [&](std::size_t t) {
-      if (core[t] && t < s) unite(parent, static_cast<Label>(s), static_cast<Label>(t));
+      if (t < s && core[t]) unite(parent, static_cast<Label>(s), static_cast<Label>(t));
     });
   }
   // A border particle takes the cluster of its lowest-numbered core neighbour; without one it stands alone.
@@ -89,7 +89,7 @@ ConnectedWater find_connected_water(const ColumnGrid& grid, double dp, const Con
     if (!core[s] && !torn[s]) {
       Label lowest = static_cast<Label>(n);
       for_each_neighbour(grid, s, link, [&](std::size_t t) {
-        if (core[t] && t < lowest) lowest = static_cast<Label>(t);
+        if (t < lowest && core[t]) lowest = static_cast<Label>(t);
       });
       if (lowest < n) best = lowest;
     }

@@ -39,7 +39,7 @@ bool cuda_built();
 std::vector<DeviceInfo> cuda_devices();
 /// Takes the device for this process and returns its back end. Throws Error(resource) with the reason.
 Cuda take_cuda_device(int number);
-/// Sets the number of threads of the OpenMP back end (0: all cores) and returns it.
+/// Sets the number of threads of the OpenMP back end (0: OMP_NUM_THREADS where it is set, else all cores) and returns it. Throws Error(usage) beyond 1024.
 int set_threads(int threads);
 /// Threads that wait for each other at the end of a loop spin for some 10 ms by default, which on a busy machine makes
 /// two threads ten times slower than one; a tenth of a millisecond serves as well. The OpenMP runtime reads this once,

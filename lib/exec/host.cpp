@@ -83,8 +83,14 @@ void fill_bytes(const OpenMP&, void* p, int value, std::size_t bytes) {
 
 }  // namespace detail
 
+constexpr int most_threads = 1024;  // far more than that, and the OpenMP runtime ends the program without a word
+
 int set_threads(int threads) {
-  if (threads <= 0) threads = omp_get_num_procs();
+  static const int given = omp_get_max_threads();  // before anybody sets it: OMP_NUM_THREADS, else all cores
+  if (threads <= 0) threads = given;
+  if (threads > most_threads) {
+    throw Error(ErrorKind::usage, std::to_string(threads) + " threads (--threads, OMP_NUM_THREADS): at most " + std::to_string(most_threads));
+  }
   omp_set_num_threads(threads);
   return threads;
 }

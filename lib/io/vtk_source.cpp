@@ -16,6 +16,7 @@
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include <algorithm>
 #include <string_view>
 
 #include "core/error.hpp"
@@ -52,7 +53,7 @@ vtkStandardNewMacro(MessageCatcher);
 std::string told(const std::string& messages) {
   const std::size_t mark = messages.find("): ");
   std::string text = mark == std::string::npos ? messages : messages.substr(mark + 3);
-  text = text.substr(0, text.find('\n'));
+  text.erase(std::min(text.find('\n'), text.size()));
   return text.empty() ? "it is damaged" : text;
 }
 

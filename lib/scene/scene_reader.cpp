@@ -29,7 +29,7 @@ std::string shown(const toml::node& node) {
   out << toml::toml_formatter{node};
   std::string text = out.str();
   for (char& c : text) if (c == '\n') c = ' ';
-  if (text.size() > 60) text = text.substr(0, 57) + "...";
+  if (text.size() > 60) text.replace(57, std::string::npos, "...");
   return text;
 }
 

@@ -59,6 +59,24 @@ class Reliability(run_case.RunCase):
         for threads in ("2", "3"):
             self.assert_same_run("1.run", f"{threads}.run")
 
+    def test_names_in_a_scene_are_no_paths(self):
+        """What a scene calls its bodies and slides never becomes a place to write to."""
+        self.scene("mixed", "end=0.02")
+        self.run_well("a.case", "-o", "plain/a.run", "-q")
+        scene = self.folder / "a.case/case.toml"
+        text = scene.read_text()
+        for name in ("gate", "box", "slide", "stability atlas"):
+            self.assertIn(f'"{name}"', text)
+            text = text.replace(f'"{name}"', f'"../../../{name}"')
+        scene.write_text(text)
+        before = sorted(p.name for p in self.folder.iterdir())
+        code, _, err = self.run_tool("a.case", "-o", "other/a.run", "-q")
+        self.assertIn(code, (0, 3), err)
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir()), sorted([*before, *(["other"] if code == 0 else [])]))
+        if code == 0:
+            files = lambda run: sorted(str(p.relative_to(self.folder / run)) for p in (self.folder / run).rglob("*"))
+            self.assertEqual(files("plain"), files("other"))
+
     def test_folder_that_vanishes(self):
         self.scene("dam", "dp=0.005")
         process = self.start("a.case", "-o", "a.run", "-q", "--set", "time.output_interval=0.01")

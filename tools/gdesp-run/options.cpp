@@ -38,7 +38,7 @@ po::options_description own_options() {
   o.add_options()("output,o", po::value<std::string>()->value_name("RUN"), "folder of the run");
   o.add_options()("device", po::value<std::string>()->value_name("auto|cpu|cuda|cuda:N")->default_value("auto"),
                   "auto takes the GPU when there is one");
-  o.add_options()("threads", po::value<int>()->value_name("N")->default_value(0, "all cores"), "threads of the processor");
+  o.add_options()("threads", po::value<int>()->value_name("N")->default_value(0, "OMP_NUM_THREADS, else all cores"), "threads of the processor");
   o.add_options()("t-end", po::value<double>()->value_name("S"), "simulated time (default: time.end of the scene)");
   o.add_options()("preset", po::value<std::string>()->value_name("NAME"), "numerics.preset: accurate or paper");
   o.add_options()("set", po::value<std::vector<std::string>>()->value_name("KEY=VALUE"),
@@ -83,7 +83,7 @@ RunOptions collect(const po::variables_map& vm) {
   if (vm.count("output")) o.run_folder = vm["output"].as<std::string>();
   o.device = vm["device"].as<std::string>();
   o.threads = vm["threads"].as<int>();
-  if (o.threads < 0) throw Error(ErrorKind::usage, "--threads " + std::to_string(o.threads) + ": 0 (all cores) or more is needed");
+  if (o.threads < 0) throw Error(ErrorKind::usage, "--threads " + std::to_string(o.threads) + ": 0 (OMP_NUM_THREADS, else all cores) or more is needed");
   if (vm.count("t-end")) o.t_end = positive_seconds(vm, "t-end");
   if (vm.count("preset")) o.overrides.push_back({"numerics.preset", vm["preset"].as<std::string>()});
   if (vm.count("set"))

@@ -14,7 +14,7 @@ struct RunOptions {
   std::string case_path;                ///< folder; "-": the next case record on standard input
   std::string run_folder;               ///< absolute; empty until the case is known
   std::string device = "auto";
-  int threads = 0;                      ///< 0: all cores
+  int threads = 0;                      ///< 0: OMP_NUM_THREADS, else all cores
   std::optional<double> t_end;          ///< s; default: the scene's
   std::optional<double> output_interval;  ///< s; set when a run goes on: that of its start
   std::vector<Override> overrides;      ///< --preset and --set, in this order

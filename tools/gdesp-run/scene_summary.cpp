@@ -239,8 +239,7 @@ double available_memory(const std::string& device) {
   return std::max(free, 1.0e6);
 }
 
-void check_memory(const SceneSummary& summary, const Scene& scene, const std::string& device) {
-  const double free = available_memory(device);
+void check_memory(const SceneSummary& summary, const Scene& scene, const std::string& device, double free) {
   if (summary.memory <= free) return;
   const double fits = scene.dp * std::pow(summary.memory / free, 1.0 / scene.dimensions);
   throw Error(ErrorKind::resource, "the case needs about " + memory_text(summary.memory) + " of memory, " + device + " has " +

@@ -27,8 +27,8 @@ SceneSummary summarize(const Scene& scene, const SimulationInput& input, const E
 /// Free memory of the device, bytes: of the machine or its control group (cpu), of the card (cuda:N).
 double available_memory(const std::string& device);
 
-/// Throws Error(resource) with the memory needed, what there is, and the dp that would fit.
-void check_memory(const SceneSummary& summary, const Scene& scene, const std::string& device);
+/// Throws Error(resource) with the memory needed, what the device has free (bytes), and the dp that would fit.
+void check_memory(const SceneSummary& summary, const Scene& scene, const std::string& device, double free);
 
 /// 1536 -> "1.5 KiB"
 std::string memory_text(double bytes);

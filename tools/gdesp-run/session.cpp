@@ -72,7 +72,7 @@ Session prepare(RunOptions options) {
 }
 
 void start(Session& s) {
-  check_memory(s.summary, s.scene_case.scene, s.device);
+  check_memory(s.summary, s.scene_case.scene, s.device, available_memory(s.device));
   s.simulation = make_simulation(s.input, s.device);
   s.input = {};
 }

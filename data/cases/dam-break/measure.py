@@ -49,6 +49,9 @@ for sensor, z in HEIGHTS.items():
 
 measured = tools.reference("lobovsky_2014_h300_pressure")
 curve = pressures("sensor2")
+tools.picture(run, "sensor2", "t sqrt(g / H)", "pressure at sensor 2 / (rho g H)", {"": curve},
+              {f"Lobovsky et al. 2014, {what}": [(row["t_star"], row[f"p_{key}"]) for row in measured if row["t_star"] < 5.0]
+               for what, key in (("median", "median"), ("2.5 %", "low"), ("97.5 %", "high"))})
 times, values = [t for t, _ in curve], [p for _, p in curve]
 compared = [row for row in measured if 2.8 <= row["t_star"] <= min(4.0, times[-1])]
 if compared:

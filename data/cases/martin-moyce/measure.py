@@ -34,6 +34,9 @@ fitted = sorted((row["T"], row["value"]) for row in measured if row["series"] ==
 known = (tools.at(3.0, *zip(*fitted)) - tools.at(1.5, *zip(*fitted))) / 1.5
 rows.relative("front speed dZ/dT, T = 1.5 to 3", "1", slope, known, 0.05)
 
+tools.picture(run, "front", "T = t sqrt(2 g / a)", "Z = x / a", {"": list(zip(times, values))},
+              {"Martin and Moyce 1952, n2 = 2": [(row["T"] + shift, row["value"]) for row in measured if row["series"] == "front"]}, key="top left")
+
 levels = tools.analyze("profile", run, "--line", "0.004,0,0.012,0", "--step", "0.004")
 by_time = {}
 for row in levels:

@@ -32,6 +32,8 @@ points = {time: surface(time) for time in (0.6, 1.2)}
 speed = (2.0 - 3.0 * math.sqrt(SHARE)) * C
 rows.relative("speed of the front (depth h0/20), 0.6 to 1.2 s", "m/s", (front(1.2) - front(0.6)) / 0.6, speed, 0.05)
 rows.relative("place of the front at 1.2 s", "m", front(1.2), speed * 1.2, 0.05)
+exact = [(x, (2.0 * C - x / 1.2) ** 2 / (9.0 * GRAVITY) if -C * 1.2 < x < 2.0 * C * 1.2 else DEPTH * (x < 0.0)) for x, _ in points[1.2]]
+tools.picture(run, "profile", "x [m]", "depth at 1.2 s [m]", {"": points[1.2]}, {"Ritter 1892": exact}, measured=False)
 errors = [(z - (2.0 * C - x / 1.2) ** 2 / (9.0 * GRAVITY)) / DEPTH for x, z in points[1.2] if -0.9 * C * 1.2 <= x <= C * 1.2]
 value = tools.root_mean_square(errors)
 rows.add("profile at 1.2 s, x/t = -0.9 to 1 sqrt(g h0), RMS / h0", "1", value, 0.0, value, 0.02)

@@ -28,6 +28,8 @@ for time, path in tools.frames(run):
         norm += u * u + w * w
     history.append((time, share / norm))
 history = [(t, a / history[0][1]) for t, a in history]
+tools.picture(run, "amplitude", "t [s]", "velocity of the mode over that at the start", {"": history},
+              {"linear theory, no viscosity": [(0.02 * k, math.cos(OMEGA * 0.02 * k)) for k in range(int(50 * history[-1][0]) + 1)]}, measured=False)
 zeros = [t0 + (t1 - t0) * a0 / (a0 - a1) for (t0, a0), (t1, a1) in zip(history, history[1:]) if a0 * a1 < 0.0]
 period = 2.0 * (zeros[-1] - zeros[0]) / (len(zeros) - 1)
 rows.relative("period", "s", period, 2.0 * math.pi / OMEGA, 0.01)

@@ -44,6 +44,15 @@ def bore_place(time):
 
 rows.relative("speed of the bore, 0.7 to 1.3 s", "m/s", (bore_place(1.3) - bore_place(0.7)) / 0.6, bore, 0.05)
 points, t = surface(1.3), 1.3
+def exact(x):
+    if x <= -C * t:
+        return LEFT
+    if x <= (u - math.sqrt(GRAVITY * h)) * t:
+        return (2.0 * C - x / t) ** 2 / (9.0 * GRAVITY)
+    return h if x <= bore * t else RIGHT
+
+
+tools.picture(run, "profile", "x [m]", "depth at 1.3 s [m]", {"": points}, {"Stoker 1957": [(x, exact(x)) for x, _ in points]}, measured=False)
 plateau = [z for x, z in points if (u - math.sqrt(GRAVITY * h)) * t + 0.1 <= x <= bore * t - 0.3]
 rows.relative("depth of the plateau at 1.3 s, mean", "m", sum(plateau) / len(plateau), h, 0.05)
 errors = [(z - (2.0 * C - x / t) ** 2 / (9.0 * GRAVITY)) / LEFT for x, z in points if -0.9 * C * t <= x <= (u - math.sqrt(GRAVITY * h)) * t]

@@ -27,6 +27,8 @@ chosen = [(t, l) for t, l in logs if 0.2 <= t <= 1.0]
 mean_t, mean_l = (sum(c[k] for c in chosen) / len(chosen) for k in (0, 1))
 slope = sum((t - mean_t) * (l - mean_l) for t, l in chosen) / sum((t - mean_t) ** 2 for t, _ in chosen)
 rows.relative("decay rate of the velocity, 0.2 to 1 s", "1/s", -slope, RATE, 0.02)
+tools.picture(run, "decay", "t [s]", "root mean square velocity over that at the start", {"": [(t, math.exp(l - logs[0][1])) for t, l in logs]},
+              {"exact": [(0.02 * k, math.exp(-RATE * 0.02 * k)) for k in range(51)]}, measured=False)
 scale = math.exp(-RATE * time)
 errors = []
 for v, r in zip(frame["velocity"], frame["position"]):

@@ -9,6 +9,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "scripts"))
 import measure_tools as tools
 
 BED, LEVEL = 0.038, 0.05  # m: depth of the channel; height at which the front is read
+LATE = 0.406  # s, of the picture
 
 run = tools.run_argument()
 rows = tools.Rows()
@@ -20,6 +21,8 @@ for time, points in sorted(measured.items()):
     table = tools.analyze("profile", run, "--line", "0.3,0,1.3,0", "--step", "0.005", "--time", str(time))
     surface = [(row["x"], row["z_surface"]) for row in table if not math.isnan(row["z_surface"])]
     xs, zs = [x for x, _ in surface], [z for _, z in surface]
+    if abs(time - LATE) < 0.01:
+        tools.picture(run, "surface", "x [m]", f"surface at {time:g} s [m]", {"": surface}, {"Janosi et al. 2004": sorted(points)})
     squares += [(tools.at(x, xs, zs) - z) ** 2 for x, z in points]
     fronts.append((time, max(x for x, z in surface if z > LEVEL), max(x for x, z in points if z > LEVEL)))
 value = math.sqrt(sum(squares) / len(squares))

@@ -25,6 +25,7 @@ class Errors(run_case.RunCase):
         self.refused(2, "c.case", "--device", "gpu", says=["device 'gpu'", "cuda:N"])
         self.refused(2, "c.case", "--resume", "--force", says=["contradict"])
         self.refused(2, "c.case", "--set", "cfl", says=["KEY=VALUE"])
+        self.refused(2, self.case(), "--threads", "1000000", says=["1000000 threads", "at most 1024"], leaves=["c.case"])
 
     def test_case(self):
         self.refused(3, "missing.case", says=["missing.case", "no such case folder"])

@@ -58,6 +58,15 @@ class Output(run_case.RunCase):
             self.run_well(case, "-o", f"{threads}.run", "--threads", threads, "-q")
             self.assert_same_run("one.run", f"{threads}.run")
 
+    def test_threads_are_what_the_environment_says_unless_told(self):
+        threads = lambda run: json.loads((self.folder / run / "run.json").read_text())["threads"]
+        case = self.case()
+        for told, environment, expected in (([], {"OMP_NUM_THREADS": "3"}, 3), (["--threads", "2"], {"OMP_NUM_THREADS": "3"}, 2),
+                                            ([], {}, len(os.sched_getaffinity(0)))):
+            bare = {name: value for name, value in run_case.environment.items() if not name.startswith("OMP_")}
+            self.run_well(case, "-o", "a.run", "--force", "--t-end", "0.001", "-q", *told, env={**bare, **environment})
+            self.assertEqual(threads("a.run"), expected, (told, environment))
+
     def test_end_and_interval_from_the_command_line(self):
         records, _ = self.run_well(self.case(), "--t-end", "0.03", "--set", "time.output_interval=0.02", "-q")
         self.assertEqual([r["t"] for r in records], [0, 0.02, 0.03, 0.03])

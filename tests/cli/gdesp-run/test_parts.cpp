@@ -146,16 +146,23 @@ TEST(SceneSummary, says_what_is_on_and_why_not) {
 
 TEST(SceneSummary, too_little_memory_names_the_dp_that_fits) {
   SceneSummary s;
-  s.memory = 8.0 * available_memory("cpu");
   Scene scene;
   scene.dp = 1.0;
-  try {
-    check_memory(s, scene, "cpu");
-    FAIL() << "accepted";
-  } catch (const Error& problem) {
-    EXPECT_EQ(problem.kind(), ErrorKind::resource);
-    EXPECT_NE(std::string(problem.what()).find("resolution.dp = 2.0"), std::string::npos) << problem.what();
-  }
+  const auto refused = [&](const std::string& device, double free) {
+    s.memory = 8.0 * free;
+    try {
+      check_memory(s, scene, device, free);
+    } catch (const Error& problem) {
+      EXPECT_EQ(problem.kind(), ErrorKind::resource);
+      return std::string(problem.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_NE(refused("cpu", available_memory("cpu")).find("resolution.dp = 2.0"), std::string::npos);
+  EXPECT_EQ(refused("cuda:0", 78.0 * 1073741824.0),
+            "the case needs about 624 GiB of memory, cuda:0 has 78 GiB free; resolution.dp = 2.04 m would fit (now 1 m)");
+  s.memory = 1e9;
+  EXPECT_NO_THROW(check_memory(s, scene, "cuda:0", 1.1e9));
 }
 
 TEST(MovingSurfaces, prescribed_bodies_by_displacement_removed_ones_not_at_all) {
