@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -118,6 +119,13 @@ double highest_run_up(const std::string& run_folder) {
 
 double wall_seconds_of(const std::string& run_folder) { return read_run_json(run_folder).value("wall_seconds", 0.0); }
 
+/// s, of all threads: RUSAGE_SELF or, of programs that have ended, RUSAGE_CHILDREN.
+double processor_seconds(int whose) {
+  rusage usage{};
+  ::getrusage(whose, &usage);
+  return static_cast<double>(usage.ru_utime.tv_sec) + 1.0e-6 * static_cast<double>(usage.ru_utime.tv_usec);
+}
+
 /// The spacing at which the scene has as many water particles as the coarsest pilot should.
 double first_dp(const RunOptions& o, const Scene& scene, const std::string& folder) {
   const double pilot_particles = scene.dimensions == 2 ? plane_particles : space_particles;
@@ -136,8 +144,10 @@ Pilot run_pilot(const RunOptions& o, const Scene& scene, double dp, const std::s
   std::vector<std::string> words{name + ".case", "-o", name + ".run", "--force", "--quiet", "--device", o.device,
                                  "--threads", std::to_string(o.threads)};
   if (o.t_end) words.insert(words.end(), {"--t-end", number_text(*o.t_end, 12)});
+  const double before = processor_seconds(RUSAGE_CHILDREN);
   output_of("gdesp-run", words);
-  const Pilot pilot{dp, highest_run_up(name + ".run"), wall_seconds_of(name + ".run")};
+  const double processor = processor_seconds(RUSAGE_CHILDREN) - before;
+  const Pilot pilot{dp, highest_run_up(name + ".run"), wall_seconds_of(name + ".run"), processor};
   cli::info("pilot: dp " + number_text(dp, 3) + " m, run-up " + number_text(pilot.run_up) + " m, " + duration_text(pilot.seconds));
   return pilot;
 }
@@ -154,13 +164,15 @@ std::vector<Pilot> run_pilots(const RunOptions& o, const Scene& scene, const Tar
   return pilots;
 }
 
-ordered_json to_json(const Pilot& p) { return {{"dp", p.dp}, {"run_up", p.run_up}, {"wall_seconds", p.seconds}}; }
+ordered_json to_json(const Pilot& p) {
+  return {{"dp", p.dp}, {"run_up", p.run_up}, {"wall_seconds", p.seconds}, {"processor_seconds", p.processor_seconds}};
+}
 
 std::string percent(double share) { return number_text(100.0 * share, 3) + " %"; }
 
 /// Says what was reached, and writes it to target.json in the run folder.
-void tell_reached(const RunOptions& o, const Targets& targets, std::vector<Pilot> runs, const Choice& choice) {
-  const Pilot reached{choice.dp, highest_run_up(o.run_folder), wall_seconds_of(o.run_folder)};
+void tell_reached(const RunOptions& o, const Targets& targets, std::vector<Pilot> runs, const Choice& choice, double processor) {
+  const Pilot reached{choice.dp, highest_run_up(o.run_folder), wall_seconds_of(o.run_folder), processor};
   ordered_json record{{"accuracy", targets.accuracy}, {"budget", targets.budget}, {"reason", choice.reason},
                       {"dp", choice.dp}, {"predicted_seconds", choice.seconds}, {"predicted_error", choice.error}};
   for (const Pilot& p : runs) record["pilots"].push_back(to_json(p));
@@ -196,8 +208,9 @@ int run_to_target(RunOptions o) {
   RunOptions run = o;
   run.case_path = case_path;
   run.overrides.clear();
+  const double before = processor_seconds(RUSAGE_SELF);
   const int code = run_case(run);
-  if (code == 0) tell_reached(o, targets, pilots, choice);
+  if (code == 0) tell_reached(o, targets, pilots, choice, processor_seconds(RUSAGE_SELF) - before);
   return code;
 }
 

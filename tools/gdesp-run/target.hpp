@@ -12,8 +12,8 @@
 
 namespace gdesp::tool {
 
-/// One run: dp (m), highest run-up over all regions (m), wall time of the run (s).
-struct Pilot { double dp = 0.0, run_up = 0.0, seconds = 0.0; };
+/// One run: dp (m), highest run-up over all regions (m), wall time of the run (s), processor time of all its threads (s).
+struct Pilot { double dp = 0.0, run_up = 0.0, seconds = 0.0, processor_seconds = 0.0; };
 
 /// Run-up against dp: a straight line through the pilots (first order), R = limit + slope dp; scatter: root mean square.
 struct RunUpFit { double limit = 0.0, slope = 0.0, scatter = 0.0;
