@@ -8,6 +8,7 @@
 //   --youngs-modulus E: Pa, of grains; 2e8 in the paper
 //   --warm-up T: s, simulated before steps are timed (0.05: the grains are out of their lattice, at the water)
 // cpu_ms_per_step is processor time of all threads: on a shared machine it says more than the time that passes.
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -81,8 +82,9 @@ void rectangle(TriangleTable& table, const Vec3d& a, const Vec3d& b, const Vec3d
 SimulationInput landslide(double scale, double youngs_modulus) {
   const double dp = 0.01818 / std::cbrt(scale), d = 0.00909 / std::cbrt(scale);
   SimulationInput input;
-  input.lower = {-0.1, -0.1, -0.1};
-  input.upper = {length + 1.0, width + 0.1, roof};
+  const double margin = std::max(0.1, 4.0 * dp);
+  input.lower = {-margin, -margin, -margin};
+  input.upper = {length + 1.0 + margin, width + margin, roof + margin};
   auto& p = input.fluid_parameters;
   p.dp = dp;
   p.h = 1.3 * dp;
