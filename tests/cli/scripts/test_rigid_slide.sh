@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The slide of Alpe Gera as one rigid body, coarse and short, through the three programs: it slides down, the water holds,
+# nothing is gained from nothing.
+# usage: test_rigid_slide.sh REPOSITORY BUILD_FOLDER
+set -uo pipefail
+root=$1
+PATH=$2/bin:$PATH
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+failures=0
+fail() { failures=$((failures + 1)); echo "FAILED: $*"; }
+
+# without friction: the 45 degrees of the flank end on a bench of 18 degrees, where its own friction would hold the slab
+mesh2particles "$root/data/cases/alpe-gera/alpe-gera.toml" -o "$work/rigid.case" --set slide.kind=rigid --set slide.density=1484 \
+  --set resolution.dp=32 --set contact.wall_friction=0 2>"$work/errors" |
+  gdesp-run - -o "$work/rigid.run" --threads 1 --t-end 5 2>>"$work/errors" | surge-analyze runup - >"$work/run-up.tsv" 2>>"$work/errors"
+codes=("${PIPESTATUS[@]}")
+[[ ${codes[*]} == "0 0 0" ]] || fail "exit codes ${codes[*]}: $(tail -n 5 "$work/errors")"
+(( $(grep -c 'far bank' "$work/run-up.tsv") >= 10 )) || fail "run-up.tsv has no row for each frame"
+
+surge-analyze slide "$work/rigid.run" --quiet >"$work/slide.tsv" || fail "surge-analyze slide ended with $?"
+awk -F'\t' 'NR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i; next }
+  { travel = $column["front_travel[m]"]; z = $column["z[m]"]; if (NR == 2) first = z }
+  END { exit !(travel > 15 && travel < 60 && z < first - 5) }' "$work/slide.tsv" || fail "the body did not slide down: $(tail -n 1 "$work/slide.tsv")"
+
+python3 - "$work/rigid.run/log.ndjson" <<'PYTHON' || fail "energy or mass"
+import json, sys
+lines = [r for r in map(json.loads, open(sys.argv[1])) if "fluid_kinetic" in r]
+total = [sum(v for k, v in r.items() if k.endswith(("_kinetic", "_potential", "_elastic"))) for r in lines]
+moving = max(r["body_kinetic"] for r in lines)
+made = (max(total) - total[0]) / moving
+print(f"energy made: {made:.2g} of the largest kinetic energy of the body; particles lost: {lines[-1]['lost_fluid']}")
+sys.exit(not (moving > 0 and made < 0.001 and lines[-1]["lost_fluid"] == 0))
+PYTHON
+echo "$failures failed"
+(( failures == 0 ))
