@@ -24,7 +24,7 @@ for gauge in ("x0.5", "x1.5"):
 
 # run-down: the water line on the slope, half a spacing beyond the particle nearest to the shore
 dp = tools.scene(run)["resolution"]["dp"]
-lowest = min(range(len(tools.frames(run))), key=lambda k: abs(tools.frames(run)[k][0] - 0.54))
+lowest = min(range(len(tools.frames(run))), key=lambda k: abs(tools.frames(run)[k][0] - 0.87))
 place = tools.read_vtp(tools.frames(run)[lowest][1])["position"]
 line = min(x for x, _, _ in place) - 0.5 * dp
-rows.relative("run-down at the shore, 0.54 s", "m", -line * math.tan(math.radians(15.0)), -0.01217, 0.1)
+rows.relative("run-down at the shore, 0.87 s", "m", -line * math.tan(math.radians(15.0)), -0.00981, 0.1)

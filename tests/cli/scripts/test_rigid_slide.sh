@@ -13,7 +13,7 @@ fail() { failures=$((failures + 1)); echo "FAILED: $*"; }
 
 # without friction: the 45 degrees of the flank end on a bench of 18 degrees, where its own friction would hold the slab
 mesh2particles "$root/data/cases/alpe-gera/alpe-gera.toml" -o "$work/rigid.case" --set slide.kind=rigid --set slide.density=1484 \
-  --set resolution.dp=32 --set contact.wall_friction=0 2>"$work/errors" |
+  --set resolution.dp=16 --set contact.wall_friction=0 2>"$work/errors" |
   gdesp-run - -o "$work/rigid.run" --threads 1 --t-end 5 2>>"$work/errors" | surge-analyze runup - >"$work/run-up.tsv" 2>>"$work/errors"
 codes=("${PIPESTATUS[@]}")
 [[ ${codes[*]} == "0 0 0" ]] || fail "exit codes ${codes[*]}: $(tail -n 5 "$work/errors")"
