@@ -22,6 +22,7 @@
 #include <map>
 #include <string>
 
+#include "../support/surfaces.hpp"
 #include "core/error.hpp"
 #include "io/case.hpp"
 
@@ -93,12 +94,8 @@ struct Maker {
         }
   }
 
-  void quad(const Vec3d& a, const Vec3d& b, const Vec3d& d, const Vec3d& e, std::int32_t body = 0) {
-    const auto first = static_cast<std::int32_t>(c.walls.vertex.size());
-    for (const Vec3d& v : {a, b, d, e}) c.walls.vertex.push_back(v);
-    c.walls.triangle.push_back({first, first + 1, first + 2});
-    c.walls.triangle.push_back({first, first + 2, first + 3});
-    c.walls.body.insert(c.walls.body.end(), 2, body);
+  void quad(const Vec3d& a, const Vec3d& b, const Vec3d& d, const Vec3d& e) {
+    test::add_rectangle(c.walls, a, b, d, e);
   }
   /// A wall of grains in the plane, from a to b; the free side is to the left.
   void line(const Vec3d& a, const Vec3d& b) {
@@ -116,25 +113,10 @@ struct Maker {
     c.bodies.push_back(body);
     const auto number = static_cast<std::int32_t>(c.bodies.size());
     solid(low, high, [=](const Vec3d& r) { return std::max({low.x - r.x, r.x - high.x, low.z - r.z, r.z - high.z}); }, number);
-    const auto at = [&](int i, int j, int k) { return Vec3d{i ? high.x : low.x, j ? 0.5 : -0.5, k ? high.z : low.z}; };
-    quad(at(0, 0, 0), at(0, 1, 0), at(1, 1, 0), at(1, 0, 0), number);
-    quad(at(0, 0, 1), at(1, 0, 1), at(1, 1, 1), at(0, 1, 1), number);
-    quad(at(0, 0, 0), at(1, 0, 0), at(1, 0, 1), at(0, 0, 1), number);
-    quad(at(0, 1, 0), at(0, 1, 1), at(1, 1, 1), at(1, 1, 0), number);
-    quad(at(0, 0, 0), at(0, 0, 1), at(0, 1, 1), at(0, 1, 0), number);
-    quad(at(1, 0, 0), at(1, 1, 0), at(1, 1, 1), at(1, 0, 1), number);
+    test::add_box(c.walls, number, {low.x, -0.5, low.z}, {high.x, 0.5, high.z});
   }
   void floating(const Vec3d& low, const Vec3d& high, double density) {
-    Body body;
-    body.name = "box";
-    body.kind = BodyKind::free;
-    const Vec3d s = high - low;
-    body.mass = density * s.x * s.z;
-    body.centre = {0.5 * (low.x + high.x), 0.0, 0.5 * (low.z + high.z)};
-    body.inertia[0] = body.mass * (1.0 + s.z * s.z) / 12.0;
-    body.inertia[4] = body.mass * (s.x * s.x + s.z * s.z) / 12.0;
-    body.inertia[8] = body.mass * (s.x * s.x + 1.0) / 12.0;
-    block(low, high, body);
+    block(low, high, test::box_body({low.x, -0.5, low.z}, {high.x, 0.5, high.z}, density));
   }
 
   void float_() {

@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 
+#include "../../support/surfaces.hpp"
 #include "core/error.hpp"
 #include "io/case.hpp"
 
@@ -45,13 +46,7 @@ struct Maker {
       if (!inside) wall(r, 0, static_cast<float>(0.5 * dp));
     });
     const double w = three ? size.y : 1.0;
-    const auto quad = [&](Vec3d a, Vec3d b, Vec3d d, Vec3d e, std::int32_t body) {
-      const auto first = static_cast<std::int32_t>(c.walls.vertex.size());
-      for (const Vec3d& v : {a, b, d, e}) c.walls.vertex.push_back(v);
-      c.walls.triangle.push_back({first, first + 1, first + 2});
-      c.walls.triangle.push_back({first, first + 2, first + 3});
-      c.walls.body.insert(c.walls.body.end(), 2, body);
-    };
+    const auto quad = [&](const Vec3d& a, const Vec3d& b, const Vec3d& d, const Vec3d& e, std::int32_t body) { test::add_rectangle(c.walls, a, b, d, e, body); };
     const double lo = three ? 0.0 : -0.5;
     quad({0, lo, 0}, {size.x, lo, 0}, {size.x, lo + w, 0}, {0, lo + w, 0}, 0);
     quad({0, lo, 0}, {0, lo + w, 0}, {0, lo + w, size.z}, {0, lo, size.z}, 0);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../../support/surfaces.hpp"
 #include "../../support/tank.hpp"
 
 namespace gdesp::parity {
@@ -40,21 +41,13 @@ void set_paper(SimulationInput& input) {
   input.coupling.added_mass = 0.0;
 }
 
-void rectangle(TriangleTable& table, const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d, int body) {
-  const auto base = static_cast<std::int32_t>(table.vertex.size());
-  table.vertex.insert(table.vertex.end(), {a, b, c, d});
-  table.triangle.push_back({base, base + 1, base + 2});
-  table.triangle.push_back({base, base + 2, base + 3});
-  table.body.insert(table.body.end(), 2, body);
-}
-
 // Floor and four walls around [0, size], seen from inside.
 void box_walls(TriangleTable& t, const Vec3d& s) {
-  rectangle(t, {0, 0, 0}, {s.x, 0, 0}, {s.x, s.y, 0}, {0, s.y, 0}, 0);
-  rectangle(t, {0, 0, 0}, {0, s.y, 0}, {0, s.y, s.z}, {0, 0, s.z}, 0);
-  rectangle(t, {s.x, 0, 0}, {s.x, 0, s.z}, {s.x, s.y, s.z}, {s.x, s.y, 0}, 0);
-  rectangle(t, {0, 0, 0}, {0, 0, s.z}, {s.x, 0, s.z}, {s.x, 0, 0}, 0);
-  rectangle(t, {0, s.y, 0}, {s.x, s.y, 0}, {s.x, s.y, s.z}, {0, s.y, s.z}, 0);
+  test::add_rectangle(t, {0, 0, 0}, {s.x, 0, 0}, {s.x, s.y, 0}, {0, s.y, 0});
+  test::add_rectangle(t, {0, 0, 0}, {0, s.y, 0}, {0, s.y, s.z}, {0, 0, s.z});
+  test::add_rectangle(t, {s.x, 0, 0}, {s.x, 0, s.z}, {s.x, s.y, s.z}, {s.x, s.y, 0});
+  test::add_rectangle(t, {0, 0, 0}, {0, 0, s.z}, {s.x, 0, s.z}, {s.x, 0, 0});
+  test::add_rectangle(t, {0, s.y, 0}, {s.x, s.y, 0}, {s.x, s.y, s.z}, {0, s.y, s.z});
 }
 
 // Grains on a jittered lattice from `low` up, of diameters between 0.8 and 1 d.
@@ -84,7 +77,7 @@ SimulationInput heap(int across, bool linear) {
   input.fluid_parameters.sound_speed = 30.0;
   box_walls(input.walls, size);
   const double gate = 1.1 * d * across;
-  rectangle(input.walls, {gate, 0, 0}, {gate, 0, 0.2}, {gate, size.y, 0.2}, {gate, size.y, 0}, 1);
+  test::add_rectangle(input.walls, {gate, 0, 0}, {gate, 0, 0.2}, {gate, size.y, 0.2}, {gate, size.y, 0}, 1);
   Body body;
   body.name = "gate";
   body.motion.time = {0.0, 0.001, 1.0};

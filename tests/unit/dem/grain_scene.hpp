@@ -4,10 +4,12 @@
 
 #include <cstdint>
 
+#include "../../support/surfaces.hpp"
 #include "dem/grain_system.hpp"
 
 namespace gdesp::dem::test {
 
+using gdesp::test::add_rectangle;
 using Grains = GrainSystem<exec::OpenMP>;
 
 /// A box of space (m) without walls; blocks 64 spacings wide.
@@ -29,16 +31,6 @@ inline void add_grain(GrainTable& table, const Vec3d& position, double diameter,
 inline double grain_mass_of(const GrainTable& t, std::size_t i) {
   const double d = t.diameter[i];
   return static_cast<double>(t.density[i]) * 3.14159265358979324 / 6.0 * d * d * d;
-}
-
-/// A rectangle a, b, c, d (its front by the right-hand rule) as two triangles.
-inline void add_rectangle(TriangleTable& table, const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d,
-                          std::int32_t body = 0) {
-  const auto base = static_cast<std::int32_t>(table.vertex.size());
-  table.vertex.insert(table.vertex.end(), {a, b, c, d});
-  table.triangle.push_back({base, base + 1, base + 2});
-  table.triangle.push_back({base, base + 2, base + 3});
-  table.body.insert(table.body.end(), 2, body);
 }
 
 /// A floor at height z with cells of `mesh` metres, front upwards.

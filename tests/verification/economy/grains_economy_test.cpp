@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "support/surfaces.hpp"
 #include "support/tank.hpp"
 
 namespace gdesp {
@@ -16,17 +17,10 @@ constexpr double dp = 0.02, depth = 0.3, length = 1.2, d = 0.012;
 
 TriangleTable floor_and_ends() {
   TriangleTable walls;
-  const auto rectangle = [&](const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& e) {
-    const auto base = static_cast<std::int32_t>(walls.vertex.size());
-    walls.vertex.insert(walls.vertex.end(), {a, b, c, e});
-    walls.triangle.push_back({base, base + 1, base + 2});
-    walls.triangle.push_back({base, base + 2, base + 3});
-    walls.body.insert(walls.body.end(), 2, 0);
-  };
   const double y = 0.1, top = 1.0;
-  rectangle({0, -y, 0}, {length, -y, 0}, {length, y, 0}, {0, y, 0});
-  rectangle({0, -y, 0}, {0, y, 0}, {0, y, top}, {0, -y, top});
-  rectangle({length, -y, 0}, {length, -y, top}, {length, y, top}, {length, y, 0});
+  test::add_rectangle(walls, {0, -y, 0}, {length, -y, 0}, {length, y, 0}, {0, y, 0});
+  test::add_rectangle(walls, {0, -y, 0}, {0, y, 0}, {0, y, top}, {0, -y, top});
+  test::add_rectangle(walls, {length, -y, 0}, {length, -y, top}, {length, y, top}, {length, y, 0});
   return walls;
 }
 
@@ -96,6 +90,8 @@ void expect_within_a_percent(const Climbs& economical, const Climbs& full) {
   const double spread = 2.0 * std::sqrt(economical.error_squared + full.error_squared);
   EXPECT_LT(spread, 0.02 * full.mean) << "else nothing is shown";
   EXPECT_NEAR(economical.mean, full.mean, 0.01 * full.mean + spread);
+  std::printf("economical: %.5f m, full: %.5f m, twice the standard error %.5f m; overlaps %.3f and %.3f\n", economical.mean, full.mean, spread,
+              economical.overlap, full.overlap);
 }
 
 TEST(OwnStepOfGrains, leaves_the_climb_at_the_far_wall_within_a_percent) {
@@ -106,8 +102,6 @@ TEST(OwnStepOfGrains, leaves_the_climb_at_the_far_wall_within_a_percent) {
   EXPECT_GT(one.mean, 0.02);
   EXPECT_GT(one.steps, 2.0 * own.steps) << "the grains' step binds";
   expect_within_a_percent(own, one);
-  std::printf("own steps: %.5f m, one step: %.5f m, twice the standard error %.5f m\n", own.mean, one.mean,
-              2.0 * std::sqrt(own.error_squared + one.error_squared));
 }
 
 TEST(SofterContact, leaves_the_climb_at_the_far_wall_within_a_percent) {
@@ -119,8 +113,6 @@ TEST(SofterContact, leaves_the_climb_at_the_far_wall_within_a_percent) {
   EXPECT_LT(soft.substeps, 0.8 * stiff.substeps) << "what it saves";
   EXPECT_GT(soft.overlap, 1.1 * stiff.overlap) << "what it costs";
   expect_within_a_percent(soft, stiff);
-  std::printf("softer: %.5f m, stiff: %.5f m, twice the standard error %.5f m; overlaps %.3f and %.3f\n", soft.mean, stiff.mean,
-              2.0 * std::sqrt(soft.error_squared + stiff.error_squared), soft.overlap, stiff.overlap);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "../../support/surfaces.hpp"
 #include "dem/rigid_bodies.hpp"
 
 namespace gdesp::test {
@@ -15,38 +16,10 @@ inline void add_triangle(TriangleTable& walls, int body, const Vec3d& a, const V
   walls.triangle.push_back({base, base + 1, base + 2});
   walls.body.push_back(body);
 }
-inline void add_quad(TriangleTable& walls, int body, const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
-  add_triangle(walls, body, a, b, c);
-  add_triangle(walls, body, a, c, d);
-}
 
 /// Floor z = height over [low, high] x [low, high], normal upwards.
 inline void add_floor(TriangleTable& walls, double low, double high, double height) {
-  add_quad(walls, 0, {low, low, height}, {high, low, height}, {high, high, height}, {low, high, height});
-}
-
-inline void add_box(TriangleTable& walls, int body, const Vec3d& lo, const Vec3d& hi) {
-  const auto at = [&](int i, int j, int k) { return Vec3d{i ? hi.x : lo.x, j ? hi.y : lo.y, k ? hi.z : lo.z}; };
-  add_quad(walls, body, at(0, 0, 0), at(0, 1, 0), at(1, 1, 0), at(1, 0, 0));
-  add_quad(walls, body, at(0, 0, 1), at(1, 0, 1), at(1, 1, 1), at(0, 1, 1));
-  add_quad(walls, body, at(0, 0, 0), at(1, 0, 0), at(1, 0, 1), at(0, 0, 1));
-  add_quad(walls, body, at(0, 1, 0), at(0, 1, 1), at(1, 1, 1), at(1, 1, 0));
-  add_quad(walls, body, at(0, 0, 0), at(0, 0, 1), at(0, 1, 1), at(0, 1, 0));
-  add_quad(walls, body, at(1, 0, 0), at(1, 1, 0), at(1, 1, 1), at(1, 0, 1));
-}
-
-/// A free box of given density; in two dimensions the y extent must be 1 m (mass per metre).
-inline Body box_body(const Vec3d& lo, const Vec3d& hi, double density) {
-  Body body;
-  body.name = "box";
-  body.kind = BodyKind::free;
-  const Vec3d s = hi - lo;
-  body.mass = density * s.x * s.y * s.z;
-  body.centre = 0.5 * (lo + hi);
-  body.inertia[0] = body.mass * (s.y * s.y + s.z * s.z) / 12.0;
-  body.inertia[4] = body.mass * (s.x * s.x + s.z * s.z) / 12.0;
-  body.inertia[8] = body.mass * (s.x * s.x + s.y * s.y) / 12.0;
-  return body;
+  add_rectangle(walls, {low, low, height}, {high, low, height}, {high, high, height}, {low, high, height});
 }
 
 /// A cylinder along y, cut into `sides`, of 1 m length around (0, z).
@@ -56,7 +29,7 @@ inline Body add_cylinder(TriangleTable& walls, int number, double radius, double
     const double a = 2.0 * pi * k / sides, b = 2.0 * pi * (k + 1) / sides;
     const Vec3d p{radius * std::sin(a), 0.0, z + radius * std::cos(a)}, q{radius * std::sin(b), 0.0, z + radius * std::cos(b)};
     const Vec3d side{0.0, 0.5, 0.0};
-    add_quad(walls, number, p - side, q - side, q + side, p + side);
+    add_rectangle(walls, p - side, q - side, q + side, p + side, number);
   }
   Body body;
   body.name = "cylinder";
