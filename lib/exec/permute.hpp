@@ -25,7 +25,7 @@ struct CopyEach {
 /// Room for `count` values of T in the memory of another array, whose contents are lost.
 template <class T, class R, class Exec>
 T* room_for(Array<R, Exec>& room, std::size_t count) {
-  static_assert(alignof(R) >= alignof(T) || sizeof(R) >= sizeof(float));  // arrays begin at 64 bytes
+  static_assert(alignof(T) <= 64);  // arrays begin at 64 bytes
   const std::size_t needed = (count * sizeof(T) + sizeof(R) - 1) / sizeof(R);
   if (needed > room.size()) room.resize_discard(needed);
   return reinterpret_cast<T*>(room.data());
