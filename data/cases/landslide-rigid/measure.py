@@ -1,19 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Highest climb at the wall opposite the slope, energy made from nothing, particles lost."""
-import sys
+"""The numbers of landslide-granular: the same wall, the same budgets."""
+import runpy
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "scripts"))
-import measure_tools as tools
-
-run = tools.run_argument()
-rows = tools.Rows()
-wall = [row for row in tools.analyze("runup", run) if row["region"] == "wall"]
-rows.stated("highest climb of connected water at the wall", "m", max(row["run_up"] for row in wall), "stated as a ratio only")
-rows.stated("highest splash at the wall", "m", max(row["splash"] for row in wall), "none")
-created = tools.energy_created(run)
-rows.add("energy created / largest kinetic energy", "1", created, 0.0, created, 0.001)
-last = tools.last_log(run)
-lost = last["lost_fluid"] + last["lost_grains"]
-rows.add("particles lost", "1", lost, 0.0, lost, 0.0)
+runpy.run_path(str(Path(__file__).resolve().parents[1] / "landslide-granular" / "measure.py"))
