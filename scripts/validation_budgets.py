@@ -26,7 +26,7 @@ def is_worked_on(scene):
 
 def is_closed(scene):
     """No walls, no bodies, no gravity: nothing takes momentum or gives it."""
-    held = any(scene.get(name) for name in ("wall", "floating", *WORKERS)) or scene.get("terrain", {}).get("file")
+    held = any(scene.get(name) for name in ("wall", "floating", *WORKERS)) or scene.get("terrain", {}).get("files")
     return not held and not any(scene["gravity"]) and not is_worked_on(scene)
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pictures of the validation page: curves of the runs beside the reference's, drawn by gnuplot.
 
-A measure.py hands over its curves with measure_tools.Rows.picture(); they are kept in RUN_FOLDER/curves/NAME.json. The
+A measure.py hands over its curves with measure_tools.picture(); they are kept in RUN_FOLDER/curves/NAME.json. The
 finest run of each preset goes into docs/validation/CASE.NAME.svg."""
 import json
 import re
@@ -27,7 +27,7 @@ def block(name, points):
 
 
 def draw(path, title, runs):
-    """`runs`: (label, style, picture) with the picture as Rows.picture() kept it; the reference is the first one's."""
+    """`runs`: (label, style, picture) with the picture as measure_tools.picture() kept it; the reference is the first one's."""
     first = runs[0][2]
     data, plots = "", []
     for k, (label, points) in enumerate(first["reference"].items()):
