@@ -95,14 +95,6 @@ def last_log(run):
     return next(record for record in map(json.loads, reversed(lines)) if "largest_speed" in record)
 
 
-def energy_created(run):
-    """Highest total energy over the first, by the largest kinetic energy: what a closed scene has made from nothing."""
-    records = [r for r in map(json.loads, (Path(run) / "log.ndjson").read_text().splitlines()) if "fluid_kinetic" in r]
-    kinds = [k for k in records[0] if k.endswith(("_kinetic", "_potential", "_elastic"))]
-    total = [sum(r[k] for k in kinds) for r in records]
-    return (max(total) - total[0]) / max(sum(r[k] for k in kinds if k.endswith("_kinetic")) for r in records)
-
-
 def read_vtp(path):
     """The arrays of a frame: name -> numbers, or triples for position and velocity."""
     arrays = vtp.read_arrays(path)
