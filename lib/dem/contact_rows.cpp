@@ -27,6 +27,55 @@ struct PackSearch {
   }
 };
 
+// A contact with a history, kept while the lists that held it are made anew; slots as they were then.
+struct alignas(16) KeptContact {
+  Index neighbour;
+  float fx, fy, fz;   // N
+};
+
+struct OldRows {
+  const RowRange* range;
+  const ContactRow* rows;
+  const RollingRow* rolling;   // null without rolling resistance
+
+  // visit(row, lane, number) for the contacts of grain i that have a history.
+  template <class Visit>
+  GDESP_HD void for_each_history(Index i, const Visit& visit) const {
+    const RowRange of = range[i];
+    Index number = 0;
+    for (Index k = 0; k * 8 < of.count; ++k) {
+      const Index r = k == 0 ? i : of.overflow + k - 1;
+      for (int l = 0; l < 8; ++l) {
+        bool remembers = rows[r].fx[l] != 0.0f || rows[r].fy[l] != 0.0f || rows[r].fz[l] != 0.0f;
+        if (rolling) remembers = remembers || rolling[r].mx[l] != 0.0f || rolling[r].my[l] != 0.0f || rolling[r].mz[l] != 0.0f;
+        if (remembers) visit(r, l, number++);
+      }
+    }
+  }
+};
+struct CountKept {
+  OldRows old;
+  Index* count;
+  GDESP_HD void operator()(Index i) const {
+    Index kept = 0;
+    old.for_each_history(i, [&](Index, int, Index) { ++kept; });
+    count[i] = kept;
+  }
+};
+struct KeepHistory {
+  OldRows old;
+  const Index* begin;
+  KeptContact* kept;
+  Vec3f* kept_rolling;
+  GDESP_HD void operator()(Index i) const {
+    old.for_each_history(i, [&](Index r, int l, Index number) {
+      const ContactRow& row = old.rows[r];
+      kept[begin[i] + number] = {row.neighbour[l], row.fx[l], row.fy[l], row.fz[l]};
+      if (old.rolling) kept_rolling[begin[i] + number] = {old.rolling[r].mx[l], old.rolling[r].my[l], old.rolling[r].mz[l]};
+    });
+  }
+};
+
 // Four counts of sixteen bits, one for each grain of a cluster.
 struct FourCounts {
   std::uint64_t packed = 0;
@@ -52,10 +101,9 @@ struct BuildRows {
   const Index* source;
   ListReach reach;
   Index slots;
-  bool first;
-  const RowRange* old_range;
-  const ContactRow* old_rows;
-  const RollingRow* old_rolling;
+  const Index* kept_begin;    // by old slot; null: no contacts so far
+  const KeptContact* kept;
+  const Vec3f* kept_rolling;
   RowRange* range;
   ContactRow* rows;
   RollingRow* rolling;
@@ -125,20 +173,15 @@ struct BuildRows {
   }
   GDESP_HD void copy_history(Index i, Index j, Index index, int lane) const {
     const Index old_i = source ? source[i] : i, old_j = source ? source[j] : j;
-    const RowRange old = old_range[old_i];
-    for (Index k = 0; k * 8 < old.count; ++k) {
-      const Index from_index = row_index(old_i, old.overflow, k);
-      const ContactRow& from = old_rows[from_index];
-      int found = -1;
-      for (int l = 0; l < 8; ++l) found = from.neighbour[l] == old_j ? l : found;
-      if (found < 0) continue;
-      rows[index].fx[lane] = from.fx[found];
-      rows[index].fy[lane] = from.fy[found];
-      rows[index].fz[lane] = from.fz[found];
+    for (Index k = kept_begin[old_i]; k < kept_begin[old_i + 1]; ++k) {
+      if (kept[k].neighbour != old_j) continue;
+      rows[index].fx[lane] = kept[k].fx;
+      rows[index].fy[lane] = kept[k].fy;
+      rows[index].fz[lane] = kept[k].fz;
       if (!rolling) return;
-      rolling[index].mx[lane] = old_rolling[from_index].mx[found];
-      rolling[index].my[lane] = old_rolling[from_index].my[found];
-      rolling[index].mz[lane] = old_rolling[from_index].mz[found];
+      rolling[index].mx[lane] = kept_rolling[k].x;
+      rolling[index].my[lane] = kept_rolling[k].y;
+      rolling[index].mz[lane] = kept_rolling[k].z;
       return;
     }
   }
@@ -158,7 +201,7 @@ struct BuildRows {
       const Index slot = exec::cluster_size * c + i, other = exec::cluster_size * found.j + jj;
       const Index index = row_index(slot, places.overflow[i], place / 8);
       rows[index].neighbour[place % 8] = other;
-      if (touching && !first) copy_history(slot, other, index, place % 8);
+      if (touching && kept_begin) copy_history(slot, other, index, place % 8);
     });
     places.near.add(near);
     places.far.add(far);
@@ -194,14 +237,21 @@ struct BuildRows {
     FourCounts near_count, all_count;
     Places places;
 #if defined(__CUDA_ARCH__)
-    // Two walks: count, fill.
-    for_each_near(c, lanes, [&](const Found& found) {
-      near_count.add(found.near);
-      all_count.add(found.all);
-    });
-    if (!take_rows(c, lanes, all_count, places.overflow)) return;
-    places.far = near_count;
-    for_each_near(c, lanes, [&](const Found& found) { put(c, lanes, found, places); });
+    // Two walks through one piece of code (twice the code would be called, with registers put away): count, fill.
+#pragma unroll 1
+    for (int walk = 0; walk < 2; ++walk) {
+      const bool fills = walk == 1;
+      for_each_near(c, lanes, [&](const Found& found) {
+        if (fills) {
+          put(c, lanes, found, places);
+        } else {
+          near_count.add(found.near);
+          all_count.add(found.all);
+        }
+      });
+      if (fills || !take_rows(c, lanes, all_count, places.overflow)) return;
+      places.far = near_count;
+    }
 #else
     // One walk into a buffer; a second walk when it does not hold all.
     constexpr Index buffer_size = 512;
@@ -228,8 +278,7 @@ struct BuildRows {
 
 template <class Exec>
 ContactRows<Exec>::ContactRows(const Exec& exec, bool rolling)
-    : exec_(exec), rolling_on_(rolling), range_(exec), old_range_(exec), rows_(exec), old_rows_(exec), rolling_(exec),
-      old_rolling_(exec), overflow_used_(exec) {
+    : exec_(exec), rolling_on_(rolling), range_(exec), rows_(exec), rolling_(exec), kept_begin_(exec), overflow_used_(exec) {
   overflow_used_.resize_discard(1);
 }
 
@@ -237,14 +286,24 @@ template <class Exec>
 void ContactRows<Exec>::build(const ClusterSet<Exec>& set, const Index* source, const GrainRecord* records,
                               const FixedPosition* position, const ListReach& reach, bool first,
                               Array<GrainRecord, Exec>& room) {
-  range_.swap(old_range_);
-  rows_.swap(old_rows_);
-  rolling_.swap(old_rolling_);
-  const Index slots = set.slots();
+  const Index slots = set.slots(), old_slots = first ? 0 : static_cast<Index>(range_.size());
   const CellGridView grid = set.view();
-  float* search = exec::room_for<float>(room, 4 * static_cast<std::size_t>(slots));   // places and radii by cluster
+  const OldRows old{range_.data(), rows_.data(), rolling_on_ ? rolling_.data() : nullptr};
+  Index kept_count = 0;
+  if (!first) {
+    Index* count = exec::room_for<Index>(room, static_cast<std::size_t>(old_slots));
+    kept_begin_.resize_discard(static_cast<std::size_t>(old_slots) + 1);
+    exec::parallel_for(exec_, "dem::contact_rows", old_slots, CountKept{old, count});
+    kept_count = exec::exclusive_scan(exec_, "dem::contact_rows", count, kept_begin_.data(), old_slots);
+  }
+  // Places and radii by cluster, then the contacts that were.
+  float* search = exec::room_for<float>(room, 4 * static_cast<std::size_t>(slots) +
+                                                  (rolling_on_ ? 7 : 4) * static_cast<std::size_t>(kept_count));
+  KeptContact* kept = reinterpret_cast<KeptContact*>(search + 4 * static_cast<std::size_t>(slots));
+  Vec3f* kept_rolling = reinterpret_cast<Vec3f*>(kept + kept_count);
+  exec::parallel_for(exec_, "dem::contact_rows", old_slots, KeepHistory{old, kept_begin_.data(), kept, kept_rolling});
   exec::parallel_for(exec_, "dem::contact_rows", slots, PackSearch{grid, records, position, search});
-  overflow_capacity_ = overflow_capacity_ > slots / 4 ? overflow_capacity_ : slots / 4 + 16;
+  overflow_capacity_ = overflow_capacity_ > slots / 8 ? overflow_capacity_ : slots / 8 + 16;
   while (true) {
     const auto total = static_cast<std::size_t>(slots) + static_cast<std::size_t>(overflow_capacity_);
     range_.resize_discard(static_cast<std::size_t>(slots));
@@ -252,8 +311,8 @@ void ContactRows<Exec>::build(const ClusterSet<Exec>& set, const Index* source, 
     if (rolling_on_) rolling_.resize_discard(total);
     overflow_used_.fill_bytes(0);
     exec::pair_pass(exec_, "dem::contact_rows", set.clusters(),
-                    BuildRows{grid, search, source, reach, slots, first, old_range_.data(), old_rows_.data(),
-                              old_rolling_.data(), range_.data(), rows_.data(), rolling_on_ ? rolling_.data() : nullptr,
+                    BuildRows{grid, search, source, reach, slots, first ? nullptr : kept_begin_.data(), kept, kept_rolling,
+                              range_.data(), rows_.data(), rolling_on_ ? rolling_.data() : nullptr,
                               overflow_used_.data(), overflow_capacity_});
     const Index used = static_cast<Index>(overflow_used_.read(0));
     if (used <= overflow_capacity_) break;

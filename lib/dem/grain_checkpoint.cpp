@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The complete state as bytes. Cells and wall lists are not stored: they are functions of the positions when grains were
-// sorted and listed, which are, so that the loaded system sums in the same order as the saved one.
+// The complete state as bytes. Wall lists are not stored: they are functions of the positions when grains were listed,
+// which are, so that the loaded system sums in the same order as the saved one.
 //
-// Layout: Header; positions now, when sorted, and (fraction bits) when listed; ids, groups, records, half-step velocities and spins; per slot its
+// Layout: Header; cells; positions now, and (fraction bits) when listed; ids, groups, records, half-step velocities and spins; per slot its
 // row count and rows (neighbours, histories); wall histories; poses and states of bodies; impulses; release times.
 // Native byte order.
 #include <cstring>
@@ -13,7 +13,7 @@
 namespace gdesp::dem {
 namespace {
 
-constexpr std::uint64_t checkpoint_mark = 0x31304d4544504447ull;  // "GDPDEM01"
+constexpr std::uint64_t checkpoint_mark = 0x32304d4544504447ull;  // "GDPDEM02"
 
 struct Header {
   std::uint64_t mark = checkpoint_mark;
@@ -37,6 +37,11 @@ class Writer {
     const char* p = reinterpret_cast<const char*>(values.data());
     bytes.insert(bytes.end(), p, p + values.size() * sizeof(T));
   }
+  template <class T, class Exec>
+  void put(const Array<T, Exec>& array) { put(array.to_host()); }
+  /// What archive() of a class hands over.
+  template <class... Parts>
+  void operator()(const Parts&... parts) { (put(parts), ...); }
   std::vector<char> bytes;
 };
 
@@ -57,12 +62,18 @@ class Reader {
     take(values.data(), values.size() * sizeof(T));
     return values;
   }
+  template <class... Parts>
+  void operator()(Parts&... parts) { (fill(parts), ...); }
   bool done() const { return at_ == bytes_.size(); }
   [[noreturn]] static void fail() {
     throw Error(ErrorKind::input, "checkpoint: the state of the grains is cut short or not of this version");
   }
 
  private:
+  template <class T>
+  void fill(T& value) { value = get<T>(); }
+  template <class T, class Exec>
+  void fill(Array<T, Exec>& array) { array.assign(get_vector<T>()); }
   void take(void* to, std::size_t size) {
     if (size > bytes_.size() - at_) fail();
     if (size > 0) std::memcpy(to, bytes_.data() + at_, size);
@@ -134,21 +145,10 @@ struct StartPositions {
   }
 };
 
-struct RestoreColumns {
-  const GrainRecord* record;
-  float* radius;
-  float* mass;
-  GDESP_HD void operator()(Index i) const {
-    const bool real = record[i].radius > 0.0f;
-    radius[i] = real ? record[i].radius : 0.0f;
-    mass[i] = real ? record[i].mass : 0.0f;
-  }
-};
-
 }  // namespace
 
 template <class Exec>
-std::vector<char> GrainSystem<Exec>::save() const {
+std::vector<char> GrainSystem<Exec>::save() {
   Writer w;
   Header header;
   header.time = time_;
@@ -167,8 +167,8 @@ std::vector<char> GrainSystem<Exec>::save() const {
   header.slots = slots_;
   header.lost = lost_;
   w.put(header);
+  set_.archive(w);
   w.put(position_.to_host());
-  w.put(sorted_position_.to_host());
   w.put(start_.to_host());
   w.put(id_.to_host());
   w.put(group_.to_host());
@@ -196,10 +196,10 @@ void GrainSystem<Exec>::load(const std::vector<char>& bytes) {
   Reader r(bytes);
   const auto header = r.get<Header>();
   if (header.mark != checkpoint_mark || header.rolling != (contact_.rolling_friction > 0.0 ? 1 : 0)) Reader::fail();
+  set_.archive(r);
   const auto position = r.get_vector<FixedPosition>();
   slots_ = header.slots;
   position_.assign(position);
-  sorted_position_.assign(r.get_vector<FixedPosition>());
   start_.assign(r.get_vector<Vec3<std::int32_t>>());
   id_.assign(r.get_vector<std::uint32_t>());
   group_.assign(r.get_vector<std::int32_t>());
@@ -218,7 +218,7 @@ void GrainSystem<Exec>::load(const std::vector<char>& bytes) {
   for (auto left = r.get<std::uint64_t>(); left > 0; --left) bodies_.push_back(get_body(r));
   release_time_ = r.get_vector<double>();
   held_group_ = r.get_vector<std::int32_t>();
-  if (!r.done() || position.size() != static_cast<std::size_t>(slots_)) Reader::fail();
+  if (!r.done() || position.size() != static_cast<std::size_t>(slots_) || set_.slots() != slots_) Reader::fail();
   time_ = header.time;
   half_before_ = header.half_before;
   drift_ = header.drift;
@@ -244,11 +244,6 @@ void GrainSystem<Exec>::restore_lists(const std::vector<RowRange>& range, const 
   listed_position.resize_discard(static_cast<std::size_t>(slots_));
   exec::parallel_for(exec_, "dem::restore", slots_,
                      StartPositions{position_.data(), start_.data(), listed_position.data()});
-  set_.build(sorted_position_, id_, slots_);
-  if (set_.slots() != slots_) {
-    throw Error(ErrorKind::input, "checkpoint: the grains do not fit this domain (" + std::to_string(slots_) +
-                                      " places saved, " + std::to_string(set_.slots()) + " found)");
-  }
   contacts_.ranges().assign(range);
   contacts_.rows().assign(rows);
   contacts_.rolling_rows().assign(rolling);
@@ -256,18 +251,15 @@ void GrainSystem<Exec>::restore_lists(const std::vector<RowRange>& range, const 
     walls_.history().assign(wall_history);
     // Asks every grain, as the lists were made from readings that are gone; the readings saved are then put back.
     quiet_until_.fill_bytes(0);
-    walls_.build(set_, listed_position, now_.data(), listed_poses_, wall_reach(), false);
+    walls_.build(set_, listed_position, now_.data(), listed_poses_, wall_reach(), false, next_);
     quiet_until_.assign(quiet_until);
   }
   next_.assign(now_.to_host());
-  radius_.resize_discard(static_cast<std::size_t>(slots_));
-  mass_.resize_discard(static_cast<std::size_t>(slots_));
-  exec::parallel_for(exec_, "dem::restore", slots_, RestoreColumns{now_.data(), radius_.data(), mass_.data()});
   set_fluid(nullptr, nullptr, nullptr, nullptr);
   listed_ = true;
 }
 
-template std::vector<char> GrainSystem<exec::CompiledBackend>::save() const;
+template std::vector<char> GrainSystem<exec::CompiledBackend>::save();
 template void GrainSystem<exec::CompiledBackend>::load(const std::vector<char>&);
 
 }  // namespace gdesp::dem

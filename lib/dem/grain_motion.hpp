@@ -18,9 +18,10 @@
 
 namespace gdesp::dem {
 
-/// One component of v_new, m/s. `share` = k/M, s/kg.
-GDESP_HD inline float dragged_velocity(float v, float share, float force, float drag, float u) {
-  return (v + share * (force + drag * u)) / (1.0f + share * drag);
+/// v_new, m/s, of one component or of all. `share` = k/M, s/kg.
+template <class R>
+GDESP_HD inline R dragged_velocity(const R& v, float share, const R& force, float drag, const R& u) {
+  return (1.0f / (1.0f + share * drag)) * (v + share * (force + drag * u));
 }
 
 /// I / (m R^2).

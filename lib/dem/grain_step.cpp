@@ -6,10 +6,13 @@
 namespace gdesp::dem {
 namespace {
 
+using exec::Float4;
+
 template <class Law, bool Rolling>
 struct GrainStep {
   ContactLaws<Law> laws;
   GrainStepView v;
+  Float4 gravity, unit, inverse_unit;   // of v, side by side
 
   template <class R>
   struct Sums {
@@ -133,63 +136,50 @@ struct GrainStep {
   }
 
   // v(n+1/2) from all forces. What drag gave is what they leave of the change: momentum balances to round-off.
-  GDESP_HD Vec3f kicked_velocity(Index i, const GrainRecord& own, Vec3f force, float kick, bool writes) const {
-    const Vec3f old = v.velocity[i];
-    force += own.mass * v.gravity;
+  GDESP_HD Float4 kicked_velocity(Index i, const GrainRecord& own, Float4 force, float kick, bool writes) const {
+    const Float4 old = exec::load3(v.velocity[i]);
+    force = force + own.mass * gravity;
     if (!v.fluid.drag_coefficient) return old + (kick / own.mass) * force;
-    force += v.fluid.other_force[i];
-    const float mass = own.mass + v.fluid.added_mass[i], drag = v.fluid.drag_coefficient[i], share = kick / mass;
-    const Vec3f u = v.fluid.fluid_velocity[i];
-    const Vec3f velocity{dragged_velocity(old.x, share, force.x, drag, u.x),
-                         dragged_velocity(old.y, share, force.y, drag, u.y),
-                         dragged_velocity(old.z, share, force.z, drag, u.z)};
+    force = force + exec::load3(v.fluid.other_force[i]);
+    const float mass = own.mass + v.fluid.added_mass[i], drag = v.fluid.drag_coefficient[i];
+    const Float4 velocity = dragged_velocity(old, kick / mass, force, drag, exec::load3(v.fluid.fluid_velocity[i]));
     if (writes) {
-      v.fluid.drag_impulse[i] += static_cast<double>(mass) * (static_cast<Vec3d>(velocity) - static_cast<Vec3d>(old)) -
-                                 static_cast<double>(kick) * static_cast<Vec3d>(force);
+      const auto change = static_cast<Vec3d>(exec::first3(velocity)) - static_cast<Vec3d>(exec::first3(old));
+      v.fluid.drag_impulse[i] += static_cast<double>(mass) * change -
+                                 static_cast<double>(kick) * static_cast<Vec3d>(exec::first3(force));
     }
     return velocity;
   }
-  // Moves one coordinate by a length in units; the part of a unit that is left is owed.
-  GDESP_HD static void move(std::int32_t& place, float& rest, float units) {
-    const float wanted = units + rest;
-    const float whole = ::rintf(wanted);
-    rest = wanted - whole;
-    place = fraction_sum(place, static_cast<std::int32_t>(whole));
-  }
 
-  GDESP_HD exec::Largest finish(Index i, const GrainRecord& own, const Vec3f& force, const Vec3f& torque, float overlap,
+  // The four quarters of a record change side by side; what is last in each (radius, mass, mobility, wall) stays.
+  GDESP_HD exec::Largest finish(Index i, const GrainRecord& own, const Float4& force, const Float4& torque, float overlap,
                                 bool writes) const {
     // A grain released now starts from rest at time n: its first kick has no half before.
     const float kick = (own.mobility < 1.0f ? 0.0f : v.half.before) + v.half.after, drift = 2.0f * v.half.after;
-    const Vec3f velocity_old = v.velocity[i], spin_old = v.spin[i];
-    const Vec3f velocity = kicked_velocity(i, own, force, kick, writes);
+    const Float4 velocity_old = exec::load3(v.velocity[i]), spin_old = exec::load3(v.spin[i]);
+    const Float4 velocity = kicked_velocity(i, own, force, kick, writes);
     const float turn = kick / (v.inertia_factor * own.mass * own.radius * own.radius);
-    const Vec3f spin = spin_old + turn * torque;
-    GrainRecord next = own;
-    next.mobility = 1.0f;
-    move(next.x, next.rest_x, velocity.x * drift * v.unit.inverse.x);
-    move(next.y, next.rest_y, velocity.y * drift * v.unit.inverse.y);
-    move(next.z, next.rest_z, velocity.z * drift * v.unit.inverse.z);
+    const Float4 spin = spin_old + turn * torque;
+    // Moves by whole units; the part of a unit that is left is owed.
+    const float* record = reinterpret_cast<const float*>(&own);
+    const Float4 wanted = drift * velocity * inverse_unit + exec::load3(Vec3f{own.rest_x, own.rest_y, own.rest_z});
+    const Float4 whole = exec::rint(wanted);
+    const exec::Int4 place = exec::bits(exec::load4(record)) + exec::truncate(whole);
     const float ahead = kick > 0.0f ? v.half.after / kick : 0.0f;
-    const Vec3f predicted = velocity + ahead * (velocity - velocity_old);
-    const Vec3f surface = own.radius * (spin + ahead * (spin - spin_old));
-    next.vx = predicted.x;
-    next.vy = predicted.y;
-    next.vz = predicted.z;
-    next.sx = surface.x;
-    next.sy = surface.y;
-    next.sz = surface.z;
+    const Float4 predicted = velocity + ahead * (velocity - velocity_old);
+    const Float4 surface = own.radius * (spin + ahead * (spin - spin_old));
     if (writes) {
-      v.velocity[i] = velocity;
-      v.spin[i] = spin;
-      v.next[i] = next;
+      v.velocity[i] = exec::first3(velocity);
+      v.spin[i] = exec::first3(spin);
+      float* next = reinterpret_cast<float*>(v.next + i);
+      exec::store4(next, exec::from_bits(place));
+      exec::store4(next + 4, exec::with_last_of(predicted, exec::load4(record + 4)));
+      exec::store4(next + 8, exec::with_last_of(surface, Float4{1.0f, 1.0f, 1.0f, 1.0f}));
+      exec::store4(next + 12, exec::with_last_of(wanted - whole, exec::load4(record + 12)));
     }
-    const Vec3<std::int32_t> start = v.start[i];
-    const Vec3f moved{static_cast<float>(fraction_difference(next.x, start.x)) * v.unit.metres.x,
-                      static_cast<float>(fraction_difference(next.y, start.y)) * v.unit.metres.y,
-                      static_cast<float>(fraction_difference(next.z, start.z)) * v.unit.metres.z};
-    const float speed2 = dot(velocity, velocity) + dot(surface, surface);
-    return {{dot(moved, moved), dot(velocity, velocity), overlap, speed2 < 1.0e12f ? 0.0f : 1.0f}};
+    const Float4 moved = exec::value(place - exec::load3(v.start[i])) * unit;
+    const float speed2 = exec::dot3(velocity, velocity);
+    return {{exec::dot3(moved, moved), speed2, overlap, speed2 + exec::dot3(surface, surface) < 1.0e12f ? 0.0f : 1.0f}};
   }
 
   // Asks for the records that grain i will gather (host only: a device hides the wait by other warps).
@@ -215,16 +205,16 @@ struct GrainStep {
     const RowRange range = v.contacts.range[i];
     Sums<R> sums;
     for (Index k = 0; k * 8 < range.count; ++k) add_row(own, k == 0 ? i : range.overflow + k - 1, lanes, sums);
-    Vec3f force{}, torque{};
+    Float4 force{0.0f, 0.0f, 0.0f, 0.0f}, torque = force;
     float overlap = 0.0f;
     if (range.count > 0) {
-      force = {lanes.sum(sums.force.x), lanes.sum(sums.force.y), lanes.sum(sums.force.z)};
-      torque = own.radius * Vec3f{lanes.sum(sums.torque.x), lanes.sum(sums.torque.y), lanes.sum(sums.torque.z)};
+      force = lanes.sums(sums.force.x, sums.force.y, sums.force.z);
+      torque = own.radius * lanes.sums(sums.torque.x, sums.torque.y, sums.torque.z);
       overlap = lanes.largest(sums.overlap);
     }
     if (own.wall >= 0) {
-      force += v.walls[own.wall].force;
-      torque += v.walls[own.wall].torque;
+      force = force + exec::load3(v.walls[own.wall].force);
+      torque = torque + exec::load3(v.walls[own.wall].torque);
     }
     return finish(i, own, force, torque, overlap, lanes.leader());
   }
@@ -235,10 +225,11 @@ struct GrainStep {
 template <class Exec, class Law>
 void run_grain_step(const Exec& exec, const ContactLaws<Law>& laws, const GrainStepView& view, Index slots,
                     const exec::Gate& gate, exec::Largest* measure) {
+  const Float4 gravity = exec::load3(view.gravity), unit = exec::load3(view.unit.metres), inverse = exec::load3(view.unit.inverse);
   if (view.contacts.rolling) {
-    exec::row_pass(exec, "dem::step", slots, GrainStep<Law, true>{laws, view}, gate, measure);
+    exec::row_pass(exec, "dem::step", slots, GrainStep<Law, true>{laws, view, gravity, unit, inverse}, gate, measure);
   } else {
-    exec::row_pass(exec, "dem::step", slots, GrainStep<Law, false>{laws, view}, gate, measure);
+    exec::row_pass(exec, "dem::step", slots, GrainStep<Law, false>{laws, view, gravity, unit, inverse}, gate, measure);
   }
 }
 

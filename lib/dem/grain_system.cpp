@@ -60,21 +60,13 @@ struct NoteStart {
   Vec3<std::int32_t>* start;
   GDESP_HD void operator()(Index i) const { start[i] = {record[i].x, record[i].y, record[i].z}; }
 };
-// After sorting: positions inside the periods, and the columns that the coupling reads.
-struct FinishSort {
+// After sorting: positions inside the periods.
+struct WrapGrains {
   Domain domain;
   const GrainRecord* record;
   FixedPosition* position;
-  FixedPosition* sorted_position;
-  float* radius;
-  float* mass;
   GDESP_HD void operator()(Index i) const {
-    const GrainRecord& r = record[i];
-    const bool real = r.radius > 0.0f;
-    if (real) position[i] = domain.wrapped(position[i]);
-    sorted_position[i] = position[i];
-    radius[i] = real ? r.radius : 0.0f;
-    mass[i] = real ? r.mass : 0.0f;
+    if (record[i].radius > 0.0f) position[i] = domain.wrapped(position[i]);
   }
 };
 
@@ -108,8 +100,8 @@ template <class Exec>
 GrainSystem<Exec>::GrainSystem(const Exec& exec, const Domain& domain, const GrainTable& grains,
                                const ContactParameters& contact, const TriangleTable& walls, const Vec3d& gravity)
     : exec_(exec), domain_(domain), laws_(make_contact_laws(contact, domain.dimensions)), contact_(contact), gravity_(gravity),
-      contacts_(exec, contact.rolling_friction > 0.0), position_(exec), sorted_position_(exec), id_(exec), group_(exec), now_(exec),
-      next_(exec), velocity_(exec), spin_(exec), start_(exec), radius_(exec), mass_(exec), quiet_until_(exec),
+      contacts_(exec, contact.rolling_friction > 0.0), position_(exec), id_(exec), group_(exec), now_(exec),
+      next_(exec), velocity_(exec), spin_(exec), start_(exec), quiet_until_(exec),
       drag_impulse_(exec),
       measure_(exec), held_(exec) {
   const GrainStart state = make_grain_start(domain, grains);
@@ -208,7 +200,7 @@ void GrainSystem<Exec>::synchronize_positions() {
 
 template <class Exec>
 void GrainSystem<Exec>::sort() {
-  set_.build(position_, id_, slots_);
+  set_.build(position_, id_, slots_, next_);
   lost_ += set_.lost();
   slots_ = set_.slots();
   const Index* source = set_.source();
@@ -221,12 +213,7 @@ void GrainSystem<Exec>::sort() {
   exec::permute(exec_, velocity_, next_, source, slots_, Vec3f{});
   exec::permute(exec_, spin_, next_, source, slots_, Vec3f{});
   exec::permute(exec_, quiet_until_, next_, source, slots_, 0.0f);
-  shrink_discard(exec_, sorted_position_, slots_);
-  shrink_discard(exec_, radius_, slots_);
-  shrink_discard(exec_, mass_, slots_);
-  exec::parallel_for(exec_, "dem::sort", slots_,
-                     FinishSort{domain_, now_.data(), position_.data(), sorted_position_.data(), radius_.data(),
-                                mass_.data()});
+  exec::parallel_for(exec_, "dem::sort", slots_, WrapGrains{domain_, now_.data(), position_.data()});
   drift_ = 0.0;
   ++sorts_;
   set_fluid(nullptr, nullptr, nullptr, nullptr);
@@ -268,7 +255,7 @@ void GrainSystem<Exec>::rebuild(const std::vector<BodyMoment>& moments, bool sor
                   {static_cast<float>(largest_radius_), static_cast<float>(skin_), static_cast<float>(drift_)},
                   !listed_, next_);
   if (!walls_.empty()) {
-    walls_.build(set_, position_, now_.data(), listed_poses_, wall_reach(), !listed_);
+    walls_.build(set_, position_, now_.data(), listed_poses_, wall_reach(), !listed_, next_);
   }
   shrink_discard(exec_, next_, slots_ + 1);
   exec::parallel_for(exec_, "dem::sort", slots_ + 1, CopyRecords{now_.data(), next_.data()});

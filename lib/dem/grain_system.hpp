@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cmath>
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -62,8 +61,6 @@ class GrainSystem {
   double largest_radius() const { return largest_radius_; }   ///< m
 
   const Vec3f* velocities() const { return velocity_.data(); }   ///< m/s, at the half step behind now
-  const float* radii() const { return radius_.data(); }          ///< m
-  const float* masses() const { return mass_.data(); }           ///< kg
 
   /// Sorts now: the order of slots changes, and set() finds grains where they are. advance() sorts only while no fluid
   /// is set, so slots stay what they are over a coupled step; call this before the lists of the coupling are made.
@@ -95,7 +92,7 @@ class GrainSystem {
 
   /// The complete state, with the history of contacts: a system made of the same parameters and loaded from it goes on
   /// bit for bit. load() throws Error(input) when the bytes are not such a state.
-  std::vector<char> save() const;
+  std::vector<char> save();
   void load(const std::vector<char>& bytes);
 
  private:
@@ -151,13 +148,11 @@ class GrainSystem {
 
   Index slots_ = 0;                               ///< of the arrays below (input order before the first sort)
   Array<FixedPosition, Exec> position_;
-  Array<FixedPosition, Exec> sorted_position_;    ///< when set_ was built: what a checkpoint needs to build it again
   Array<std::uint32_t, Exec> id_;
   Array<std::int32_t, Exec> group_;
   Array<GrainRecord, Exec> now_, next_;           ///< next_ is room for what sorting and listing need
   Array<Vec3f, Exec> velocity_, spin_;            ///< at half steps
   Array<Vec3<std::int32_t>, Exec> start_;         ///< fraction bits when the lists were made
-  Array<float, Exec> radius_, mass_;
   Array<float, Exec> quiet_until_;                ///< odometer reading up to which a grain is far from walls
   FluidOnGrains fluid_;                           ///< pointers of the caller, and drag_impulse_
   Array<Vec3d, Exec> drag_impulse_;

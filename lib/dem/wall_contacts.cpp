@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "exec/permute.hpp"
+
 namespace gdesp::dem {
 namespace {
 
@@ -257,8 +259,7 @@ template <class Exec>
 WallContacts<Exec>::WallContacts(const Exec& exec, const Domain& domain, const WallMesh& mesh, double impulse_unit)
     : exec_(exec), domain_(domain), host_bodies_(mesh.body), impulse_unit_(impulse_unit), frame_(exec), corners_(exec),
       edge_(exec), vertex_(exec), ring_of_(exec), ring_(exec), node_(exec), body_(exec), listed_(exec), pose_(exec),
-      near_(exec), rows_needed_(exec), ordinal_(exec), first_row_(exec), slot_(exec), row_begin_(exec), rows_(exec),
-      gaps_(exec), history_(exec), old_history_(exec), force_(exec), impulse_(exec) {
+      slot_(exec), row_begin_(exec), rows_(exec), gaps_(exec), history_(exec), force_(exec), impulse_(exec) {
   frame_.assign(mesh.frame);
   corners_.assign(mesh.corners);
   edge_.assign(mesh.edge);
@@ -285,26 +286,31 @@ WallMeshView WallContacts<Exec>::mesh_view() const {
 template <class Exec>
 void WallContacts<Exec>::build(const ClusterSet<Exec>& set, const Array<FixedPosition, Exec>& position,
                                GrainRecord* records, const std::vector<ListedPose>& poses, const WallReach& reach,
-                               bool first) {
-  const Index slots = set.slots();
-  const auto n = static_cast<std::size_t>(slots);
+                               bool first, Array<GrainRecord, Exec>& room) {
+  const Index slots = set.slots(), old_grains = static_cast<Index>(history_.size());
+  const auto n = static_cast<std::size_t>(slots) + 1;
   listed_.assign(poses);
-  for (auto* array : {&near_, &rows_needed_, &ordinal_, &first_row_}) array->resize_discard(n + 1);
+  // Four numbers a slot, then the contacts that were.
+  static_assert(sizeof(WallHistory) % sizeof(Index) == 0 && alignof(WallHistory) == alignof(Index));
+  Index* near = exec::room_for<Index>(room, 4 * n + history_.size() * (sizeof(WallHistory) / sizeof(Index)));
+  Index *rows_needed = near + n, *ordinal = near + 2 * n, *first_row = near + 3 * n;
+  WallHistory* old_history = reinterpret_cast<WallHistory*>(near + 4 * n);
+  exec::parallel_for(exec_, "dem::wall_lists", old_grains, exec::CopyEach<WallHistory>{history_.data(), old_history});
   const WallSearch search{domain_, mesh_view(), listed_.data(), position.data(), records, reach.skin};
-  exec::parallel_for(exec_, "dem::wall_lists", slots, CountRows{search, reach.odometer, reach.look_ahead, reach.quiet_until, near_.data(), rows_needed_.data()});
-  grains_ = exec::exclusive_scan(exec_, "dem::wall_lists", near_.data(), ordinal_.data(), slots);
-  const Index rows = exec::exclusive_scan(exec_, "dem::wall_lists", rows_needed_.data(), first_row_.data(), slots);
+  exec::parallel_for(exec_, "dem::wall_lists", slots,
+                     CountRows{search, reach.odometer, reach.look_ahead, reach.quiet_until, near, rows_needed});
+  grains_ = exec::exclusive_scan(exec_, "dem::wall_lists", near, ordinal, slots);
+  const Index rows = exec::exclusive_scan(exec_, "dem::wall_lists", rows_needed, first_row, slots);
   const auto grains = static_cast<std::size_t>(grains_);
   slot_.resize_discard(grains + 1);
   row_begin_.resize_discard(grains + 1);
   rows_.resize_discard(static_cast<std::size_t>(rows));
   gaps_.resize_discard(static_cast<std::size_t>(rows));
-  history_.swap(old_history_);
   history_.resize_discard(grains);
   force_.resize_discard(grains);
   exec::parallel_for(exec_, "dem::wall_lists", slots,
-                     FillRows{search, near_.data(), ordinal_.data(), first_row_.data(), slot_.data(),
-                              row_begin_.data(), rows_.data(), records, old_history_.data(), history_.data(), first});
+                     FillRows{search, near, ordinal, first_row, slot_.data(), row_begin_.data(), rows_.data(), records,
+                              old_history, history_.data(), first});
   exec::parallel_for(exec_, "dem::wall_lists", 1, SetLast{row_begin_.data() + grains_, rows});
 }
 

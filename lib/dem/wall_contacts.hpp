@@ -44,9 +44,10 @@ class WallContacts {
 
   /// Lists the triangles within radius + reach.skin of each grain that may move, and takes over the contacts of grains that
   /// had some (GrainRecord::wall names their old number; it becomes the new one). `poses`: by body number.
-  /// `first`: grains whose centre lies behind a face, less than a radius deep, count as come from its front.
+  /// `first`: grains whose centre lies behind a face, less than a radius deep, count as come from its front. What is in
+  /// `room` is lost.
   void build(const ClusterSet<Exec>& set, const Array<FixedPosition, Exec>& position, GrainRecord* records,
-             const std::vector<ListedPose>& poses, const WallReach& reach, bool first);
+             const std::vector<ListedPose>& poses, const WallReach& reach, bool first, Array<GrainRecord, Exec>& room);
   /// Poses for the calls of step() that follow: by body number, one such set a sub-step.
   void set_poses(const std::vector<BodyPose>& poses);
   /// Forces at time n, with poses of set `sub_step`, unless the gate is closed.
@@ -80,11 +81,10 @@ class WallContacts {
   Array<WallBody, Exec> body_;
   Array<ListedPose, Exec> listed_;
   Array<BodyPose, Exec> pose_;
-  Array<Index, Exec> near_, rows_needed_, ordinal_, first_row_;
   Array<Index, Exec> slot_, row_begin_;
   Array<WallRow, Exec> rows_;
   Array<WallGap, Exec> gaps_;
-  Array<WallHistory, Exec> history_, old_history_;
+  Array<WallHistory, Exec> history_;
   Array<WallForce, Exec> force_;
   Array<std::int64_t, Exec> impulse_;
 };

@@ -93,4 +93,12 @@ class Array {
   bool grown_ = false;
 };
 
+/// Keys and values to be sorted, and a second place of the same size for each.
+struct SortedPairs {
+  std::uint64_t* keys;
+  Index* values;
+  std::uint64_t* other_keys;
+  Index* other_values;
+};
+
 }  // namespace gdesp::exec

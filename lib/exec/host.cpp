@@ -166,17 +166,13 @@ struct RadixPass {
 
 }  // namespace
 
-void sort_pairs(const OpenMP&, const char* name, Array<std::uint64_t, OpenMP>& keys, Array<Index, OpenMP>& values,
-                Array<std::uint64_t, OpenMP>& keys_scratch, Array<Index, OpenMP>& values_scratch, Index count,
-                int bits) {
+void sort_pairs(const OpenMP&, const char* name, SortedPairs& pairs, Index count, int bits) {
   const ProfileScope scope(name);
-  keys_scratch.resize_discard(keys.size());
-  values_scratch.resize_discard(values.size());
   std::vector<Index> offsets;
   for (int shift = 0; shift < bits; shift += RadixPass::digit_bits) {
-    RadixPass{keys.data(), values.data(), keys_scratch.data(), values_scratch.data(), count, shift}.run(offsets);
-    keys.swap(keys_scratch);
-    values.swap(values_scratch);
+    RadixPass{pairs.keys, pairs.values, pairs.other_keys, pairs.other_values, count, shift}.run(offsets);
+    std::swap(pairs.keys, pairs.other_keys);
+    std::swap(pairs.values, pairs.other_values);
   }
 }
 

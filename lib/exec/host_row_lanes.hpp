@@ -136,6 +136,17 @@ struct HostRowLanes {
     const Four q = __builtin_shufflevector(a.v, a.v, 0, 1, 2, 3) + __builtin_shufflevector(a.v, a.v, 4, 5, 6, 7);
     return (q[0] + q[2]) + (q[1] + q[3]);
   }
+  /// sum() of three at once: x, y, z and 0.
+  static Float4 sums(const Real& x, const Real& y, const Real& z) {
+    typedef float Four __attribute__((vector_size(16)));
+    const auto half = [](const Real& a) {
+      return __builtin_shufflevector(a.v, a.v, 0, 1, 2, 3) + __builtin_shufflevector(a.v, a.v, 4, 5, 6, 7);
+    };
+    const Four qx = half(x), qy = half(y), qz = half(z), none{};
+    const Four xy = __builtin_shufflevector(qx, qy, 0, 4, 1, 5) + __builtin_shufflevector(qx, qy, 2, 6, 3, 7);
+    const Four zw = __builtin_shufflevector(qz, none, 0, 4, 1, 5) + __builtin_shufflevector(qz, none, 2, 6, 3, 7);
+    return Float4(__builtin_shufflevector(xy, zw, 0, 1, 4, 5) + __builtin_shufflevector(xy, zw, 2, 3, 6, 7));
+  }
   static float largest(const Real& a) {
     typedef float Four __attribute__((vector_size(16)));
     const Four x = __builtin_shufflevector(a.v, a.v, 0, 1, 2, 3), y = __builtin_shufflevector(a.v, a.v, 4, 5, 6, 7);

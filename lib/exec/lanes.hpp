@@ -11,6 +11,7 @@
 #include "core/host_device.hpp"
 #include "core/real.hpp"
 #include "exec/backend.hpp"
+#include "exec/float4.hpp"
 
 #if defined(__AVX512F__) && !defined(__CUDACC__)
 #include <immintrin.h>

@@ -117,11 +117,9 @@ T exclusive_scan(const OpenMP&, const char* name, const T* in, T* out, Index cou
   return out[count];
 }
 
-/// Stable sort of (key, value) pairs by the low `bits` of the key; the second arrays are scratch of equal size.
-/// On return the sorted pairs are in `keys`, `values`.
-void sort_pairs(const OpenMP&, const char* name, Array<std::uint64_t, OpenMP>& keys, Array<Index, OpenMP>& values,
-                Array<std::uint64_t, OpenMP>& keys_scratch, Array<Index, OpenMP>& values_scratch, Index count,
-                int bits);
+/// Stable sort of (key, value) pairs by the low `bits` of the key. On return `pairs.keys` and `pairs.values` point to the
+/// sorted ones; which of the two places that is depends on the number of passes.
+void sort_pairs(const OpenMP&, const char* name, SortedPairs& pairs, Index count, int bits);
 
 /// Waits until all work given so far is done.
 inline void synchronize(const OpenMP&) {}

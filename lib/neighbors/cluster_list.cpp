@@ -73,22 +73,26 @@ struct BuildList {
   template <class Lanes>
   GDESP_HD void build(Index c, const Lanes& lanes) const {
 #if defined(__CUDA_ARCH__)
-    // Two walks: count, take the space, fill.
-    std::uint32_t n = 0;
+    // Two walks through one piece of code (twice the code would be called, with registers put away): count, take the
+    // space, fill.
+    std::uint32_t first = 0;
     bool crosses = false;
-    for_each_accepted(c, lanes, [&](std::uint32_t entry, bool hit) {
-      if (!hit) return;
-      ++n;
-      crosses = crosses || changes_tile(entry);
-    });
-    std::uint32_t next = lanes.allocate(used, n);
-    const bool fits = next + n <= capacity;
-    if (lanes.leader()) write_header(c, next, fits ? n : 0u, crosses);
-    if (!fits) return;
-    for_each_accepted(c, lanes, [&](std::uint32_t entry, bool hit) {
-      if (hit && lanes.leader()) entries[next] = entry;
-      if (hit) ++next;
-    });
+#pragma unroll 1
+    for (int walk = 0; walk < 2; ++walk) {
+      const bool fills = walk == 1;
+      std::uint32_t n = 0;
+      for_each_accepted(c, lanes, [&](std::uint32_t entry, bool hit) {
+        if (!hit) return;
+        if (fills && lanes.leader()) entries[first + n] = entry;
+        crosses = crosses || changes_tile(entry);
+        ++n;
+      });
+      if (fills) return;
+      first = lanes.allocate(used, n);
+      const bool fits = first + n <= capacity;
+      if (lanes.leader()) write_header(c, first, fits ? n : 0u, crosses);
+      if (!fits) return;
+    }
 #else
     // One walk into a buffer; a second walk when a list is longer than any sane one. Without branches on hits, which
     // no predictor foresees: every entry is written, and the next one over it when it was no hit.

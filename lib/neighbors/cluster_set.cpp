@@ -203,8 +203,7 @@ int bits_for(std::uint64_t largest) {
 
 template <class Exec>
 ClusterSet<Exec>::ClusterSet(const Exec& exec, const Domain& domain, double cell_size)
-    : exec_(exec), domain_(domain), keys_(exec), keys_scratch_(exec), order_(exec), order_scratch_(exec),
-      pencil_first_(exec), padded_count_(exec), padded_begin_(exec), tile_head_(exec),
+    : exec_(exec), domain_(domain), pencil_first_(exec), padded_count_(exec), padded_begin_(exec), tile_head_(exec),
       tile_ordinal_(exec), source_(exec), tile_slot_(exec), cell_begin_(exec), block_(exec), cluster_tile_(exec) {
   for (int axis = 0; axis < 3; ++axis) {
     cells_[axis] = std::max(1, static_cast<std::int32_t>(domain.tile_size[axis] / cell_size + 1e-6));
@@ -229,27 +228,27 @@ ClusterSet<Exec>::ClusterSet(const Exec& exec, const Domain& domain, double cell
 }
 
 template <class Exec>
-void ClusterSet<Exec>::build(const Array<FixedPosition, Exec>& position, const Array<std::uint32_t, Exec>& id,
-                             Index old_slots) {
+void ClusterSet<Exec>::build_in(const Array<FixedPosition, Exec>& position, const Array<std::uint32_t, Exec>& id,
+                                Index old_slots, std::uint64_t* room) {
   const std::int64_t tiles = static_cast<std::int64_t>(domain_.tiles.x) * domain_.tiles.y * domain_.tiles.z;
   const KeyMaker maker{domain_, cells_, pencil_bits_, tiles};
   const int tile_shift = x_bits + pencil_bits_;
   const auto n = static_cast<std::size_t>(old_slots);
-  keys_.resize_discard(n + 1);   // one more: see head below
-  order_.resize_discard(n);
+  Index* orders = reinterpret_cast<Index*>(room + 2 * (n + 1));
+  exec::SortedPairs sorted{room, orders, room + n + 1, orders + n};
   exec::parallel_for(exec_, "sort::keys", old_slots,
-                     MakeKeys{maker, position.data(), id.data(), keys_.data(), order_.data()});
+                     MakeKeys{maker, position.data(), id.data(), sorted.keys, sorted.values});
   const Tally tally = exec::reduce(exec_, "sort::count", old_slots, Tally{0, 0},
                                    CountParticles{domain_, position.data(), id.data()}, AddTally{});
   particles_ = tally.particles;
   lost_ = tally.lost;
-  exec::sort_pairs(exec_, "sort::radix", keys_, order_, keys_scratch_, order_scratch_, old_slots,
-                   tile_shift + tile_bits_);
+  exec::sort_pairs(exec_, "sort::radix", sorted, old_slots, tile_shift + tile_bits_);
+  const std::uint64_t* keys = sorted.keys;
 
   const auto count = static_cast<std::size_t>(particles_);
-  Index* head = reinterpret_cast<Index*>(keys_scratch_.data());   // idle once the keys are sorted
+  Index* head = reinterpret_cast<Index*>(sorted.other_keys);   // idle now; it holds n + 1 words
   Index* ordinal = head + count + 1;
-  exec::parallel_for(exec_, "sort::heads", particles_, MarkPencilHeads{keys_.data(), head});
+  exec::parallel_for(exec_, "sort::heads", particles_, MarkPencilHeads{keys, head});
   const Index pencils = exec::exclusive_scan(exec_, "sort::scan", head, ordinal, particles_);
   const auto p = static_cast<std::size_t>(pencils);
   for (auto* array : {&pencil_first_, &padded_count_, &padded_begin_, &tile_head_, &tile_ordinal_}) {
@@ -258,7 +257,7 @@ void ClusterSet<Exec>::build(const Array<FixedPosition, Exec>& position, const A
   exec::parallel_for(exec_, "sort::heads", particles_,
                      WritePencilFirsts{head, ordinal, pencil_first_.data()});
   exec::parallel_for(exec_, "sort::heads", pencils,
-                     CountPadded{keys_.data(), pencil_first_.data(), pencils, particles_, tile_shift,
+                     CountPadded{keys, pencil_first_.data(), pencils, particles_, tile_shift,
                                  padded_count_.data(), tile_head_.data()});
   slots_ = exec::exclusive_scan(exec_, "sort::scan", padded_count_.data(), padded_begin_.data(), pencils);
   const Index used_tiles =
@@ -271,10 +270,10 @@ void ClusterSet<Exec>::build(const Array<FixedPosition, Exec>& position, const A
   source_.resize_discard(static_cast<std::size_t>(slots_));
   cluster_tile_.resize_discard(static_cast<std::size_t>(clusters()));
   exec::parallel_for(exec_, "sort::tiles", pencils,
-                     WriteTileSlots{keys_.data(), pencil_first_.data(), tile_head_.data(), tile_ordinal_.data(),
+                     WriteTileSlots{keys, pencil_first_.data(), tile_head_.data(), tile_ordinal_.data(),
                                     tile_shift, tile_slot_.data()});
   exec::parallel_for(exec_, "sort::place", particles_,
-                     PlaceParticles{maker, keys_.data(), order_.data(), position.data(), head, ordinal,
+                     PlaceParticles{maker, keys, sorted.values, position.data(), head, ordinal,
                                     pencil_first_.data(), padded_begin_.data(), tile_slot_.data(), particles_,
                                     tile_shift, source_.data(), cell_begin_.data(), cluster_tile_.data()});
   block_.resize_discard(8 * static_cast<std::size_t>(used_tiles));
@@ -283,11 +282,7 @@ void ClusterSet<Exec>::build(const Array<FixedPosition, Exec>& position, const A
 
 template <class Exec>
 void ClusterSet<Exec>::free_workspace() {
-  keys_.free();
-  keys_scratch_.free();
-  for (auto* array : {&order_, &order_scratch_, &pencil_first_, &padded_count_, &padded_begin_, &tile_head_, &tile_ordinal_}) {
-    array->free();
-  }
+  for (auto* array : {&pencil_first_, &padded_count_, &padded_begin_, &tile_head_, &tile_ordinal_}) array->free();
 }
 
 template <class Exec>

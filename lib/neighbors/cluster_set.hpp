@@ -6,7 +6,7 @@
 // dual grid of the paper.
 #pragma once
 
-#include "exec/parallel.hpp"
+#include "exec/permute.hpp"
 #include "neighbors/domain.hpp"
 
 namespace gdesp {
@@ -46,8 +46,12 @@ class ClusterSet {
 
   /// Sorts. position[old], id[old] for old in [0, old_slots): padding (id = no_particle) and particles outside
   /// the domain are left out. Afterwards source()[slot] is the old slot (or -1: padding), and the owner
-  /// gathers (with Domain::wrapped for positions).
-  void build(const Array<FixedPosition, Exec>& position, const Array<std::uint32_t, Exec>& id, Index old_slots);
+  /// gathers (with Domain::wrapped for positions). What is in `room` (24 bytes a slot are needed) is lost.
+  template <class R>
+  void build(const Array<FixedPosition, Exec>& position, const Array<std::uint32_t, Exec>& id, Index old_slots,
+             Array<R, Exec>& room) {
+    build_in(position, id, old_slots, exec::room_for<std::uint64_t>(room, sorting_words(old_slots)));
+  }
 
   /// Gives back the memory that only build() uses, of a set that will not be built again.
   void free_workspace();
@@ -64,13 +68,17 @@ class ClusterSet {
   void archive(Archive& a) { a(slots_, particles_, lost_, source_, tile_slot_, cell_begin_, block_, cluster_tile_); }
 
  private:
+  // Two sets of keys (and one more: see MarkPencilHeads) and of old slots.
+  static std::size_t sorting_words(Index old_slots) { return 3 * static_cast<std::size_t>(old_slots) + 3; }
+  void build_in(const Array<FixedPosition, Exec>& position, const Array<std::uint32_t, Exec>& id, Index old_slots,
+                std::uint64_t* room);
+
   Exec exec_{};
   Domain domain_;
   Vec3<std::int32_t> cells_{1, 1, 1}, block_shift_{0, 0, 0};
   int pencil_bits_ = 0, tile_bits_ = 0;
   Index slots_ = 0, particles_ = 0, lost_ = 0;
-  Array<std::uint64_t, Exec> keys_, keys_scratch_;
-  Array<Index, Exec> order_, order_scratch_, pencil_first_, padded_count_, padded_begin_;
+  Array<Index, Exec> pencil_first_, padded_count_, padded_begin_;
   Array<Index, Exec> tile_head_, tile_ordinal_;
   Array<Index, Exec> source_, tile_slot_, cell_begin_;
   Array<std::uint64_t, Exec> block_;

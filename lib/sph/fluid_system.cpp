@@ -180,7 +180,7 @@ void FluidSystem<Exec>::start_walls(const BoundaryTable& walls) {
 
 template <class Exec>
 void FluidSystem<Exec>::sort_fluid() {
-  set_.build(position_, id_, static_cast<Index>(position_.size()));
+  set_.build(position_, id_, static_cast<Index>(position_.size()), record_);
   lost_ += set_.lost();
   const Index n = set_.slots();
   const Index* source = set_.source();
@@ -211,7 +211,7 @@ void FluidSystem<Exec>::sort_fluid() {
 template <class Exec>
 void FluidSystem<Exec>::sort_walls() {
   if (wall_position_.empty()) return;
-  wall_set_.build(wall_position_, wall_id_, static_cast<Index>(wall_position_.size()));
+  wall_set_.build(wall_position_, wall_id_, static_cast<Index>(wall_position_.size()), wall_record_);
   const Index n = wall_set_.slots();
   const Index* source = wall_set_.source();
   wall_record_.resize_discard(static_cast<std::size_t>(wall_set_.clusters()) * record_size);   // the room for all below

@@ -79,6 +79,7 @@ struct DeviceRowLanes {
     a += __shfl_xor_sync(quarter_mask, a, 2);
     return a + __shfl_xor_sync(quarter_mask, a, 1);
   }
+  __device__ Float4 sums(Real x, Real y, Real z) const { return {sum(x), sum(y), sum(z), 0.0f}; }
   __device__ float largest(Real a) const {
     a = fmaxf(a, __shfl_xor_sync(quarter_mask, a, 4));
     a = fmaxf(a, __shfl_xor_sync(quarter_mask, a, 2));
@@ -192,20 +193,15 @@ T exclusive_scan(const Cuda& exec, const char* name, const T* in, T* out, Index 
   return total;
 }
 
-inline void sort_pairs(const Cuda& exec, const char* name, Array<std::uint64_t, Cuda>& keys, Array<Index, Cuda>& values,
-                       Array<std::uint64_t, Cuda>& keys_scratch, Array<Index, Cuda>& values_scratch, Index count,
-                       int bits) {
-  keys_scratch.resize_discard(keys.size());
-  values_scratch.resize_discard(values.size());
-  cub::DoubleBuffer<std::uint64_t> key_buffer(keys.data(), keys_scratch.data());
-  cub::DoubleBuffer<Index> value_buffer(values.data(), values_scratch.data());
+inline void sort_pairs(const Cuda& exec, const char* name, SortedPairs& pairs, Index count, int bits) {
+  cub::DoubleBuffer<std::uint64_t> key_buffer(pairs.keys, pairs.other_keys);
+  cub::DoubleBuffer<Index> value_buffer(pairs.values, pairs.other_values);
   std::size_t bytes = 0;
   cub::DeviceRadixSort::SortPairs(nullptr, bytes, key_buffer, value_buffer, count, 0, bits, detail::stream(exec));
   void* scratch = detail::cub_scratch(exec, bytes);
   check(cub::DeviceRadixSort::SortPairs(scratch, bytes, key_buffer, value_buffer, count, 0, bits,
                                         detail::stream(exec)), name);
-  if (key_buffer.Current() != keys.data()) keys.swap(keys_scratch);
-  if (value_buffer.Current() != values.data()) values.swap(values_scratch);
+  pairs = {key_buffer.Current(), value_buffer.Current(), key_buffer.Alternate(), value_buffer.Alternate()};
 }
 
 inline void synchronize(const Cuda& exec) { check(cudaStreamSynchronize(detail::stream(exec)), "waiting for the GPU"); }

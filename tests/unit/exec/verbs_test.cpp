@@ -61,15 +61,15 @@ TEST(SortPairs, is_a_stable_sort_of_the_given_bits) {
       if (i % 3 == 0) key[i] = key[i / 2];
       value[i] = static_cast<Index>(i);
     }
-    Array<std::uint64_t, OpenMP> keys, keys_scratch;
-    Array<Index, OpenMP> values, values_scratch;
-    keys.assign(key);
-    values.assign(value);
-    sort_pairs(cpu, "test", keys, values, keys_scratch, values_scratch, static_cast<Index>(n), 31);
+    std::vector<std::uint64_t> keys = key, other_keys(n);
+    std::vector<Index> values = value, other_values(n);
+    SortedPairs pairs{keys.data(), values.data(), other_keys.data(), other_values.data()};
+    sort_pairs(cpu, "test", pairs, static_cast<Index>(n), 31);
     std::stable_sort(value.begin(), value.end(), [&](Index a, Index b) {
       return key[static_cast<std::size_t>(a)] < key[static_cast<std::size_t>(b)];
     });
-    EXPECT_EQ(values.to_host(), value);
+    EXPECT_EQ(std::vector<Index>(pairs.values, pairs.values + n), value);
+    for (std::size_t k = 0; k < n; ++k) ASSERT_EQ(pairs.keys[k], key[static_cast<std::size_t>(value[k])]);
   }
 }
 

@@ -31,7 +31,8 @@ Sorted sort_points(const Domain& domain, const std::vector<Vec3d>& points, doubl
   Array<std::uint32_t, OpenMP> id;
   position.assign(fixed);
   id.assign(ids);
-  s.set.build(position, id, static_cast<Index>(fixed.size()));
+  Array<float, OpenMP> room;
+  s.set.build(position, id, static_cast<Index>(fixed.size()), room);
   const auto slots = static_cast<std::size_t>(s.set.slots());
   s.position.resize(slots);
   s.id.resize(slots);
