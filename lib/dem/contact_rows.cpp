@@ -27,7 +27,9 @@ struct PackSearch {
   }
 };
 
-// A contact with a history, kept while the lists that held it are made anew; slots as they were then.
+// A contact with a history, kept while the lists that held it are made anew; slots as they were then. Both grains have
+// the same history but for the sign: one keeps it, the one of the lower slot. Histories of a grain that is held stand
+// still: then it is the other.
 struct alignas(16) KeptContact {
   Index neighbour;
   float fx, fy, fz;   // N
@@ -38,7 +40,10 @@ struct OldRows {
   const ContactRow* rows;
   const RollingRow* rolling;   // null without rolling resistance
 
-  // visit(row, lane, number) for the contacts of grain i that have a history.
+  GDESP_HD bool keeps(Index i, Index j) const {
+    return range[i].held == range[j].held ? i < j : range[j].held != 0;
+  }
+  // visit(row, lane, number) for the contacts that grain i keeps.
   template <class Visit>
   GDESP_HD void for_each_history(Index i, const Visit& visit) const {
     const RowRange of = range[i];
@@ -48,7 +53,7 @@ struct OldRows {
       for (int l = 0; l < 8; ++l) {
         bool remembers = rows[r].fx[l] != 0.0f || rows[r].fy[l] != 0.0f || rows[r].fz[l] != 0.0f;
         if (rolling) remembers = remembers || rolling[r].mx[l] != 0.0f || rolling[r].my[l] != 0.0f || rolling[r].mz[l] != 0.0f;
-        if (remembers) visit(r, l, number++);
+        if (remembers && keeps(i, rows[r].neighbour[l])) visit(r, l, number++);
       }
     }
   }
@@ -98,6 +103,7 @@ GDESP_HD inline Index ones_below(unsigned bits, int i, int j) {
 struct BuildRows {
   CellGridView grid;
   const float* search;
+  const GrainRecord* records;
   const Index* source;
   ListReach reach;
   Index slots;
@@ -171,19 +177,26 @@ struct BuildRows {
     RollingRow& roll = rolling[index];
     for (int l = 0; l < 8; ++l) roll.mx[l] = roll.my[l] = roll.mz[l] = 0.0f;
   }
+  // Number of the contact with j that i kept, or -1; old slots.
+  GDESP_HD Index kept_by(Index i, Index j) const {
+    for (Index k = kept_begin[i]; k < kept_begin[i + 1]; ++k) {
+      if (kept[k].neighbour == j) return k;
+    }
+    return -1;
+  }
   GDESP_HD void copy_history(Index i, Index j, Index index, int lane) const {
     const Index old_i = source ? source[i] : i, old_j = source ? source[j] : j;
-    for (Index k = kept_begin[old_i]; k < kept_begin[old_i + 1]; ++k) {
-      if (kept[k].neighbour != old_j) continue;
-      rows[index].fx[lane] = kept[k].fx;
-      rows[index].fy[lane] = kept[k].fy;
-      rows[index].fz[lane] = kept[k].fz;
-      if (!rolling) return;
-      rolling[index].mx[lane] = kept_rolling[k].x;
-      rolling[index].my[lane] = kept_rolling[k].y;
-      rolling[index].mz[lane] = kept_rolling[k].z;
-      return;
-    }
+    Index k = kept_by(old_i, old_j);
+    const float sign = k >= 0 ? 1.0f : -1.0f;
+    if (k < 0) k = kept_by(old_j, old_i);
+    if (k < 0) return;
+    rows[index].fx[lane] = sign * kept[k].fx;
+    rows[index].fy[lane] = sign * kept[k].fy;
+    rows[index].fz[lane] = sign * kept[k].fz;
+    if (!rolling) return;
+    rolling[index].mx[lane] = sign * kept_rolling[k].x;
+    rolling[index].my[lane] = sign * kept_rolling[k].y;
+    rolling[index].mz[lane] = sign * kept_rolling[k].z;
   }
 
   // Where the pairs of the next j cluster go.
@@ -224,7 +237,8 @@ struct BuildRows {
     }
     lanes.for_each_i([&](int i) {
       const Index slot = exec::cluster_size * c + i;
-      range[slot] = fits ? RowRange{all[i], overflow[i]} : RowRange{};
+      const std::uint16_t held = records[slot].mobility == 0.0f ? 1 : 0;
+      range[slot] = fits ? RowRange{static_cast<std::uint16_t>(all[i]), held, overflow[i]} : RowRange{};
       if (!fits || all[i] == 0) return;
       for (Index k = 0; k <= extra[i]; ++k) clear(row_index(slot, overflow[i], k));
     });
@@ -234,10 +248,10 @@ struct BuildRows {
 
   template <class Lanes>
   GDESP_HD void operator()(Index c, const Lanes& lanes) const {
-    FourCounts near_count, all_count;
     Places places;
 #if defined(__CUDA_ARCH__)
-    // Two walks through one piece of code (twice the code would be called, with registers put away): count, fill.
+    // Two walks through one piece of code (twice the code would be called, with registers put away): count, fill. Far
+    // neighbours follow the near ones; until these are counted, places.near counts all.
 #pragma unroll 1
     for (int walk = 0; walk < 2; ++walk) {
       const bool fills = walk == 1;
@@ -245,14 +259,15 @@ struct BuildRows {
         if (fills) {
           put(c, lanes, found, places);
         } else {
-          near_count.add(found.near);
-          all_count.add(found.all);
+          places.far.add(found.near);
+          places.near.add(found.all);
         }
       });
-      if (fills || !take_rows(c, lanes, all_count, places.overflow)) return;
-      places.far = near_count;
+      if (fills || !take_rows(c, lanes, places.near, places.overflow)) return;
+      places.near = {};
     }
 #else
+    FourCounts near_count, all_count;
     // One walk into a buffer; a second walk when it does not hold all.
     constexpr Index buffer_size = 512;
     Found buffer[buffer_size];
@@ -311,7 +326,7 @@ void ContactRows<Exec>::build(const ClusterSet<Exec>& set, const Index* source, 
     if (rolling_on_) rolling_.resize_discard(total);
     overflow_used_.fill_bytes(0);
     exec::pair_pass(exec_, "dem::contact_rows", set.clusters(),
-                    BuildRows{grid, search, source, reach, slots, first ? nullptr : kept_begin_.data(), kept, kept_rolling,
+                    BuildRows{grid, search, records, source, reach, slots, first ? nullptr : kept_begin_.data(), kept, kept_rolling,
                               range_.data(), rows_.data(), rolling_on_ ? rolling_.data() : nullptr,
                               overflow_used_.data(), overflow_capacity_});
     const Index used = static_cast<Index>(overflow_used_.read(0));

@@ -35,7 +35,8 @@ struct alignas(32) RollingRow {
 
 /// Rows of a grain: the first is rows[slot], the others are rows[overflow ...].
 struct RowRange {
-  Index count = 0;                  ///< candidates
+  std::uint16_t count = 0;          ///< candidates
+  std::uint16_t held = 0;           ///< 1: the grain is held, its histories stand still
   Index overflow = 0;
 };
 

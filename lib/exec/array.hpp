@@ -59,7 +59,7 @@ class Array {
       detail::release(exec_, data_, capacity_ * sizeof(T));
       data_ = nullptr;
       capacity_ = 0;
-      const std::size_t wanted = grown_ ? size + size / 16 : size;  // a set that never grows pays for no more
+      const std::size_t wanted = grown_ ? size + size / 64 : size;  // a set that never grows pays for no more
       grown_ = true;
       data_ = static_cast<T*>(detail::allocate(exec_, wanted * sizeof(T)));
       capacity_ = wanted;

@@ -267,6 +267,29 @@ TEST_F(GrainSystemTest, HeldGrainsStayUntilReleased) {
   EXPECT_NEAR(grains.table().position[1].z, 0.5 - 0.5 * 9.81 * 0.01, 1e-6);
 }
 
+// Two grains keep one history between them when lists are made; that of a held grain stands still and must not be it.
+TEST_F(GrainSystemTest, NewListsKeepTheHistoryAgainstAHeldGrain) {
+  for (const double below : {-1.0, 1.0}) {   // the held grain has the lower slot, then the upper one
+    GrainTable table;
+    add_grain(table, {0.5, 0.5, 0.5}, 0.02, 2500);
+    add_grain(table, {0.502, 0.5, 0.5 - below * 0.0197}, 0.02, 2500, {0.05, 0, 0});
+    table.group = {0, 1};
+    const auto end = [&](int lists) {
+      Grains grains({}, space({0, 0, 0}, {1, 1, 1}, 0.01), table, soft(), {}, {0, 0, 9.81 * below});
+      grains.set_release_times({1.0e9, 0.0});
+      for (int k = 0; k < 8; ++k) {
+        if (k < lists) grains.sort_grains();
+        grains.advance(1.0e-4, 10);
+      }
+      EXPECT_EQ(grains.sums().contacts, 1);
+      return grains.table().angular_velocity[1];
+    };
+    const Vec3f once = end(0), often = end(8);
+    EXPECT_GT(norm(once), 0.1f);
+    EXPECT_NEAR(often.y, once.y, 1.0e-5f * norm(once)) << below;
+  }
+}
+
 TEST_F(GrainSystemTest, DragGivesWhatTheGrainTakes) {
   GrainTable table;
   add_grain(table, {0.5, 0.5, 0.5}, 0.02, 2500);
