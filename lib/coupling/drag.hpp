@@ -10,7 +10,7 @@
 //   first term of 14 with mu instead of the printed rho. Source: Tsuji, Kawaguchi, Tanaka (1993), Powder Technol. 77,
 //   79, doi:10.1016/0032-5910(93)85010-7.
 // @eq coupling.drag.di-felice
-//   force = C_d pi d^2 rho |u_s| u_s eps^-xi / 8, u_s = eps (u - v), Re = |u_s| d rho/mu,
+//   force [N] = C_d pi d^2 rho |u_s| u_s eps^-xi / 8, u_s = eps (u - v), Re = |u_s| d rho/mu,
 //   C_d = (0.63 + 4.8/sqrt(Re))^2, xi = 3.7 - 0.65 exp(-(1.5 - log10 Re)^2/2).
 //   Source: Di Felice (1994), Int. J. Multiphase Flow 20, 153, doi:10.1016/0301-9322(94)90011-6; drag coefficient of
 //   Dallavalle (1948). Coded with |u_s| C_d = (mu/(rho d)) (0.63 sqrt(Re) + 4.8)^2: finite at rest.
@@ -18,7 +18,8 @@
 //   A grain and the fluid around it (mass m_f = eps rho V/(1 - eps)) relax towards each other:
 //   J = mu_r w (1 - exp(-k dt/mu_r)), w = u - v, mu_r = m m_f/(m + m_f), k the coefficient.
 //   The coefficient that gives the same impulse with u held is k' = -(m/dt) ln(1 - (mu_r/m)(1 - exp(-k dt/mu_r)));
-//   k' -> k for small dt, and no step is too long. (Own derivation: exact solution of the two-body relaxation.)
+//   k' -> k for small dt, and no step is too long. J [N s]; k, k' [kg/s]. Source: own derivation, the exact solution of the
+//   two-body relaxation.
 #pragma once
 
 #include <cmath>

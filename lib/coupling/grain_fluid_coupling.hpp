@@ -10,9 +10,9 @@
 //   doi:10.1016/j.ijmultiphaseflow.2013.11.003; walls and immersion: own.
 // @eq coupling.reaction
 //   f_a = -sum_i F_ia - u_a sum_i D_i W_ai / N_i, so that sum_a f_a = -sum_i (force of the water on grain i). F_ia: pressure
-//   (coupling.buoyancy); D_i: drag and added mass on grain i, averaged over the step [N]. Eqs 17-18 of the paper.
+//   (coupling.buoyancy); D_i: drag and added mass on grain i, averaged over the step [N]. Source: eqs 17-18 of the paper.
 // @eq coupling.added-mass
-//   f_i = C_m rho V_i (Du/Dt - dv/dt), C_m = 1/2 for a sphere; faded out from eps = 0.9 to 0.6 (explicit coupling is not
+//   f_i = C_m rho V_i (Du/Dt - dv/dt) [N], C_m = 1/2 for a sphere; faded out from eps = 0.9 to 0.6 (explicit coupling is not
 //   stable with it in a packed bed). Source: Maxey and Riley (1983), doi:10.1063/1.864230.
 #pragma once
 

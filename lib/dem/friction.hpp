@@ -6,7 +6,7 @@
 //   i against j at the contact [m/s]; S_t [N/m], c_t [N s/m]: of the law; mu: friction coefficient; F_n >= 0: normal
 //   force [N]; P: projection on the plane of contact; q = S_t(now)/S_t(before) while the contact opens, else 1.
 //   On j: -F_t, history -f. The factor q (and the force, not the displacement, as history) keeps a closing and
-//   opening contact from making energy: Thornton, Cummins, Cleary (2013), Powder Technol. 233, 30,
+//   opening contact from making energy. Source: Thornton, Cummins, Cleary (2013), Powder Technol. 233, 30,
 //   doi:10.1016/j.powtec.2012.08.012; Coulomb cap: Cundall & Strack (1979), doi:10.1680/geot.1979.29.1.47.
 //   Coded with v_t at the middle of the step: half of S_t v_t dt before the cap, half after it.
 // @eq dem.cohesion.dmt

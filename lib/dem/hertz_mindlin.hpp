@@ -9,8 +9,8 @@
 // @eq dem.hertz.damping
 //   F_d = -2 sqrt(5/6) beta sqrt(S_n m*) v_n,  beta = -ln e / sqrt(ln^2 e + pi^2)
 //   e: restitution coefficient, 0 < e <= 1; m* = m_i m_j/(m_i + m_j) [kg]; v_n = v_ij . n [m/s], > 0 apart.
-//   Form of Tsuji, Tanaka, Ishida (1992), Powder Technol. 71, 239, doi:10.1016/0032-5910(92)88030-L (damping as
-//   delta^(1/4)); the exact relation of its coefficient to e: Antypov & Elliott (2011), EPL 94, 50004,
+//   Source: form of Tsuji, Tanaka, Ishida (1992), Powder Technol. 71, 239, doi:10.1016/0032-5910(92)88030-L (damping
+//   as delta^(1/4)); the exact relation of its coefficient to e: Antypov & Elliott (2011), EPL 94, 50004,
 //   doi:10.1209/0295-5075/94/50004. Exact when the contact ends at delta = 0, so the force may pull at its end.
 // @eq dem.mindlin.tangential
 //   S_t = 8 G* a,  G* = G/(2 (2 - nu)) of two bodies of one material; tangential damping 2 sqrt(5/6) beta sqrt(S_t m*)

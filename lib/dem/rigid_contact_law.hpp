@@ -6,6 +6,7 @@
 //   the body's contact points [m]; beta of dem.linear.damping; m_c = m/(points in contact): mass each of them carries
 //   [kg]. A face with n points is a spring n k, damped so that it rebounds with the restitution coefficient.
 //   Valid while d stays well below s. A point that starts inside a surface counts d from there.
+//   Source: Cundall and Strack (1979), Geotechnique 29, 47, doi:10.1680/geot.1979.29.1.47, point by point.
 // @eq rigid.contact.friction
 //   T = T_0 - k_t v_t h,  T_total = T - 2 beta sqrt(k_t m_c) v_t, both cut at mu max(N - u A, 0)
 //   T: elastic tangential force, remembered [N]; T_0: the last one, turned into the tangent plane; v_t: tangential velocity
@@ -14,7 +15,7 @@
 //   a body and the ground, so N is the total stress there and N - u A the effective one (Terzaghi 1943, Theoretical Soil
 //   Mechanics, doi:10.1002/9780470172766): friction is that of a body to whose underside water has found its way.
 //   A block on a plane rests up to tan(slope) = mu and slides at g (sin - mu cos) beyond.
-//   Source of both: Cundall and Strack (1979), Geotechnique 29, 47, doi:10.1680/geot.1979.29.1.47, point by point.
+//   Source: as rigid.contact.normal.
 #pragma once
 
 #include <algorithm>

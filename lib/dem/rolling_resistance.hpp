@@ -4,7 +4,7 @@
 //   M: torque on i, -M on j [N m]; w_r: part of w_i - w_j in the plane of contact [rad/s]; mu_r: rolling friction
 //   coefficient; R*: effective radius [m]; F_n >= 0: normal force [N]; k_r = 2.25 S_n mu_r^2 R*^2 [N m/rad], S_n:
 //   normal stiffness [N/m]; c_r = 2 eta sqrt(I_r k_r), eta = 0.3 [N m s];
-//   I_r: harmonic half of I + m R^2 of i and j [kg m2]. Elastic-plastic spring-dashpot, model C of Ai, Chen,
+//   I_r: harmonic half of I + m R^2 of i and j [kg m2]. Source: elastic-plastic spring-dashpot, model C of Ai, Chen,
 //   Rotter, Ooi (2011), Powder Technol. 206, 269, doi:10.1016/j.powtec.2010.09.030; k_r: Jiang, Yu, Harris (2005),
 //   Comput. Geotech. 32, 340, doi:10.1016/j.compgeo.2005.05.001. Slips without limit at constant torque mu_r R* F_n.
 //   Coded with min(1, cap/|M - c_r w_r|) on both parts: continuous at the cap.

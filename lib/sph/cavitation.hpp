@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // @eq sph.cavitation
-//   P = max(P, 0): water that is pulled apart opens instead of holding together, and opened water takes no more room
-//   than water at rest; its density is followed on the way (down to a tenth), so that it closes
-//   again where it opened. Without it SPH
-//   water in tension clumps (tensile instability) and sprays. (Tried: floors at 0.99 and 0.8 rho0 pump
-//   energy into every opening and closing, two to four times the speeds in the slide of Alpe Gera.) `paper` does without. Source: Monaghan (1994), J. Comput. Phys. 110, 399, doi:10.1006/jcph.1994.1034.
+//   P = max(P, 0); P: pressure [Pa]. Water that is pulled apart opens instead of holding together, and opened water takes
+//   no more room than water at rest; its density is followed on the way (down to a tenth), so that it closes again where
+//   it opened. Without it SPH water in tension clumps (tensile instability) and sprays. (Tried: floors at 0.99 and 0.8
+//   rho0 pump energy into every opening and closing, two to four times the speeds in the slide of Alpe Gera.) `paper`
+//   does without. Source: Monaghan (1994), J. Comput. Phys. 110, 399, doi:10.1006/jcph.1994.1034.
 #pragma once
 
 #include "core/host_device.hpp"

@@ -13,7 +13,7 @@
 //   Skillen, Lind, Stansby, Rogers (2013), Comput. Methods Appl. Mech. Eng. 265, 163, doi:10.1016/j.cma.2013.05.017;
 //   surface by D: Lee et al. (2008), J. Comput. Phys. 227, 8417, doi:10.1016/j.jcp.2008.06.005.
 // @eq sph.tensile-control
-//   (P_i + P_j) in the momentum equation becomes (P_j - P_i) where P_i < 0 and i is not near the free surface
+//   P_i + P_j [Pa] of sph.momentum = P_j - P_i where P_i < 0 and i is not near the free surface
 //   (q < 1/2, sph.shifting): the term whose sum vanishes on a regular lattice changes its sign, so that tension no longer draws
 //   particles together into clumps. Linear momentum is kept to the order of the method only, not to round-off.
 //   Source: Sun, Colagrossi, Marrone, Antuono, Zhang (2018), Comput. Phys. Commun. 224, 63,

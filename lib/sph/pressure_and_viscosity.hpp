@@ -2,8 +2,8 @@
 // @eq sph.momentum
 //   Dv_i/Dt = -(1/rho_i) sum_j V_j (P_i + P_j) grad W_ij + viscosity + g      (`accurate`)
 //   Dv_i/Dt = -sum_j m (P_i/rho_i^2 + P_j/rho_j^2) grad W_ij + viscosity + g  (`paper`, eq. 5 as meant)
-//   Both conserve linear momentum. rho is the superficial density (porosity times true density), P the pressure of
-//   the true one. Written as c^2 B_i sum_j (A_i + A_j) B_j G_ij r_ij with G = -V0 (dW/dr)/r, V0 = dp^dimensions and
+//   Both conserve linear momentum. rho: superficial density, porosity times true density [kg/m3]; P: pressure of the true
+//   one [Pa]; v, g [m/s], [m/s2]; V = m/rho: volume [m3]; grad W [1/m4]. Written as c^2 B_i sum_j (A_i + A_j) B_j G_ij r_ij with G = -V0 (dW/dr)/r, V0 = dp^dimensions and
 //     `accurate`: A = P/(rho0 c^2), B = rho0/rho;   `paper`: A = P rho0/(rho^2 c^2), B = 1.
 //   Sources: Monaghan (2005), Rep. Prog. Phys. 68, 1703, doi:10.1088/0034-4885/68/8/R01; Robinson, Ramaioli, Luding
 //   (2014), Int. J. Multiphase Flow 59, 121, doi:10.1016/j.ijmultiphaseflow.2013.11.003 (superficial density).
@@ -11,14 +11,16 @@
 //   sum_j m 2 mu (r_ij . grad W_ij) / (rho_i rho_j r_ij^2) v_ij; with (r . grad W)/r^2 = (dW/dr)/r it needs no division.
 //   mu: dynamic viscosity [Pa s]. Source: eq. 6; Morris, Fox, Zhu (1997), doi:10.1006/jcph.1997.5776.
 // @eq sph.viscosity.artificial
-//   Pi_ij = -alpha h c (v_ij . r_ij) / (rho (r_ij^2 + 0.01 h^2)) for approaching particles, else 0.
+//   Pi_ij = -alpha h c (v_ij . r_ij) / (rho (r_ij^2 + 0.01 h^2)) for approaching particles, else 0; [m5/(kg s2)], as P/rho^2.
+//   alpha [1]; h: smoothing length [m]; c: speed of sound [m/s]; rho: mean density of the two [kg/m3].
 //   Source: Monaghan (1992), doi:10.1146/annurev.aa.30.090192.002551. Equivalent kinematic viscosity up to alpha h c/8
 //   in two and alpha h c/10 in three dimensions.
 // @eq sph.continuity
 //   D rho_i/Dt = rho_i sum_j V_j v_ij . grad W_ij (`accurate`);  sum_j m v_ij . grad W_ij (`paper`, eq. 3).
+//   rho [kg/m3]; V [m3]; v_ij = v_i - v_j [m/s]. Source: Monaghan (2005), as sph.momentum.
 // @eq sph.density-diffusion
 //   delta h c sum_j 2 (rho_j - rho_i - rho^H_ij) (r_ji . grad_i W)/r^2 V_j, rho^H_ij = rho0 g.(r_j - r_i)/c^2, so that
-//   hydrostatics stay still. Acts on the true density (through A). Fluid pairs only.
+//   hydrostatics stay still; a rate of density [kg/(m3 s)]. delta [1]; h [m]; c [m/s]. Acts on the true density (through A). Fluid pairs only.
 //   Source: Fourtakas et al. (2019), Comput. Fluids 190, 346, doi:10.1016/j.compfluid.2019.06.009.
 #pragma once
 

@@ -9,7 +9,7 @@
 //   0.87 dp, water that is only behind the plane of a ridge's far face has not (without it notches threw water at c/20).
 //   (Weights by |r - r_w| let the crest of a dam, whose plane lies above, speak for water beside its face.) v_n, v_w,n: normal velocity of water and wall [m/s]; c: sound speed.
 //   In ordinary flow the bound lies near c/6 and never acts; it is what keeps a particle from slipping between wall
-//   particles on stair-stepped terrain (extrapolated pressures alone let some through). Own construction.
+//   particles on stair-stepped terrain (extrapolated pressures alone let some through). Source: own construction.
 #pragma once
 
 #include "core/host_device.hpp"

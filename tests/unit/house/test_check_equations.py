@@ -7,10 +7,11 @@ from tree import TreeTest
 
 class CheckEquations(TreeTest):
     script = "check_equations"
+    law = "// @eq sph.eos.tait\n//   P = B (R^7 - 1); P: pressure [Pa]. Source: Tait (1888).\n#pragma once\n"
 
     def setUp(self):
         super().setUp()
-        self.write("lib/sph/tait.hpp", "// @eq sph.eos.tait\n")
+        self.write("lib/sph/tait.hpp", self.law)
         self.write("docs/equations.md", "# Equations\n\n## Notation\n\n## sph.eos.tait\n")
         self.write("tests/unit/sph/test_tait.cpp", "// @eq sph.eos.tait: hand value\n")
 
@@ -43,8 +44,18 @@ class CheckEquations(TreeTest):
         (self.root / "tests/unit/sph/test_tait.cpp").unlink()
         self.assert_finds("sph.eos.tait is named by no test")
 
+    def test_formula_unit_and_source(self):
+        for part, without in (("formula", self.law.replace("=", "is")), ("unit", self.law.replace("[Pa]", "in Pa")),
+                              ("source", self.law.replace("Source: ", ""))):
+            self.write("lib/sph/tait.hpp", without + "// Source: of the next comment, a = b [m].\n")
+            self.assert_finds(f"lib/sph/tait.hpp:1: sph.eos.tait says no {part}")
+
+    def test_each_law_of_a_comment_says_its_own(self):
+        self.write("lib/sph/tait.hpp", "// @eq sph.eos.tait\n//   P = 0\n" + self.law.replace("tait", "other"))
+        self.assert_finds("lib/sph/tait.hpp:1: sph.eos.tait says no source")
+
     def test_sentence_end_is_no_part_of_a_tag(self):
-        self.write("lib/sph/tait.hpp", "// the law of @eq sph.eos.tait.\n")
+        self.write("lib/sph/tait.hpp", "// the law of @eq sph.eos.tait. P = 0 [Pa]; Source: Tait.\n")
         self.assert_clean()
 
     def test_nothing_to_check_is_no_success(self):
