@@ -24,7 +24,7 @@ namespace detail {
 // Below these counts one thread is faster than waking the others.
 inline constexpr Index small_loop = 4096, small_pass = 256;
 // Rows between the one whose neighbours are asked for and the one that is worked on.
-inline constexpr Index rows_ahead = 4;
+inline constexpr Index rows_ahead = 8;
 }  // namespace detail
 
 /// body(i) for i in [0, count).

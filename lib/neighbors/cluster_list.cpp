@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "neighbors/cluster_list.hpp"
 
+#include <type_traits>
+
 #include "core/error.hpp"
 
 namespace gdesp {
@@ -33,23 +35,27 @@ struct BuildList {
   std::uint32_t* total;
   std::uint32_t* entries;
   const Index* chosen;  // null: all
+  ClusterListView shifts;   // what tile offsets mean
 
-  // accept(entry, hit) for each j cluster that may have a pair inside the cutoff; hit: it has one.
+  // visit(first, last, code) for the j clusters that may have a pair inside the cutoff.
+  template <class Visit>
+  GDESP_HD void for_each_range(Index c, const Visit& visit) const {
+    Vec3f low, high;
+    if (!cluster_box(record_i + record_offset(c), low, high)) return;
+    for_each_candidate(grid_j, grid_i.cluster_tile[c], low, high, cutoff,
+                       [&](Index first, Index last, const Vec3<std::int32_t>& o) {
+      visit(first, last, static_cast<std::uint32_t>((o.z + 1) * 9 + (o.y + 1) * 3 + (o.x + 1)));
+    });
+  }
+  // accept(entry, hit) for each of them; hit: it has one.
   template <class Lanes, class Accept>
   GDESP_HD void for_each_accepted(Index c, const Lanes& lanes, const Accept& accept) const {
     using Real = typename Lanes::Real;
     const float* ri = record_i + record_offset(c);
-    Vec3f low, high;
-    if (!cluster_box(ri, low, high)) return;
-    const Real x = lanes.load_i(ri), y = lanes.load_i(ri + 4), z = lanes.load_i(ri + 8);
-    const Vec3<std::int32_t> tile = grid_i.cluster_tile[c];
-    const Domain& domain = grid_i.domain;
-    const Real cutoff2(cutoff * cutoff);
-    for_each_candidate(grid_j, tile, low, high, cutoff, [&](Index first, Index last, const Vec3<std::int32_t>& o) {
-      const Real xs = x - Real(static_cast<float>(o.x) * static_cast<float>(domain.tile_size.x));
-      const Real ys = y - Real(static_cast<float>(o.y) * static_cast<float>(domain.tile_size.y));
-      const Real zs = z - Real(static_cast<float>(o.z) * static_cast<float>(domain.tile_size.z));
-      const std::uint32_t code = static_cast<std::uint32_t>((o.z + 1) * 9 + (o.y + 1) * 3 + (o.x + 1));
+    const Real x = lanes.load_i(ri), y = lanes.load_i(ri + 4), z = lanes.load_i(ri + 8), cutoff2(cutoff * cutoff);
+    for_each_range(c, [&](Index first, Index last, std::uint32_t code) {
+      const Vec3f shift = entry_shift(shifts, code);
+      const Real xs = x + Real(shift.x), ys = y + Real(shift.y), zs = z + Real(shift.z);
       for (Index j = first; j <= last; ++j) {
         const float* rj = record_j + record_offset(j);
         const Real dx = xs - lanes.load_j(rj), dy = ys - lanes.load_j(rj + 4), dz = zs - lanes.load_j(rj + 8);
@@ -69,6 +75,20 @@ struct BuildList {
 
   template <class Lanes>
   GDESP_HD void operator()(Index k, const Lanes& lanes) const { build(chosen ? chosen[k] : k, lanes); }
+
+  // Two walks: count, fill.
+  template <class Lanes>
+  GDESP_HD void build_long(Index c, const Lanes& lanes) const {
+    std::uint32_t n = 0;
+    for_each_accepted(c, lanes, [&](std::uint32_t, bool hit) { n += hit ? 1u : 0u; });
+    std::uint32_t next = lanes.allocate(used, n);
+    const bool fits = next + n <= capacity;
+    write_header(c, next, fits ? n : 0u, true);
+    if (!fits) return;
+    for_each_accepted(c, lanes, [&](std::uint32_t entry, bool hit) {
+      if (hit) entries[next++] = entry;
+    });
+  }
 
   template <class Lanes>
   GDESP_HD void build(Index c, const Lanes& lanes) const {
@@ -94,28 +114,43 @@ struct BuildList {
       if (!fits) return;
     }
 #else
-    // One walk into a buffer; a second walk when a list is longer than any sane one. Without branches on hits, which
-    // no predictor foresees: every entry is written, and the next one over it when it was no hit.
-    constexpr std::uint32_t buffer_size = 2048;
-    std::uint32_t buffer[buffer_size + 1];
-    std::uint32_t n = 0;
-    for_each_accepted(c, lanes, [&](std::uint32_t entry, bool hit) {
-      buffer[n < buffer_size ? n : buffer_size] = entry;
-      n += hit ? 1u : 0u;
+    // Candidates, then hits, into buffers, without branches that no predictor foresees: sixteen candidates are written
+    // where there may be fewer, and every entry, hit or not. Lists longer than any sane one take two walks more.
+    constexpr std::uint32_t buffer_size = 2048, at_once = 16;
+    std::uint32_t candidates[buffer_size + at_once], hits[buffer_size];
+    std::uint32_t found = 0, n = 0;
+    bool crosses = false;
+    for_each_range(c, [&](Index first, Index last, std::uint32_t code) {
+      crosses = crosses || code != ClusterListView::same_tile;
+      for (Index j = first; j <= last && found < buffer_size; j += static_cast<Index>(at_once)) {
+        for (std::uint32_t k = 0; k < at_once; ++k) {
+          candidates[found + k] = ((static_cast<std::uint32_t>(j) + k) << ClusterListView::code_bits) | code;
+        }
+        const auto left = static_cast<std::uint32_t>(last - j + 1);
+        found += left < at_once ? left : at_once;
+      }
     });
-    bool crosses = n > buffer_size;
-    for (std::uint32_t k = 0; k < n && k < buffer_size; ++k) crosses = crosses | changes_tile(buffer[k]);
-    std::uint32_t next = lanes.allocate(used, n);
+    if (found >= buffer_size) return build_long(c, lanes);
+    const auto test = [&](auto with_shift) {
+      using Real = typename Lanes::Real;
+      const float* ri = record_i + record_offset(c);
+      const Real x = lanes.load_i(ri), y = lanes.load_i(ri + 4), z = lanes.load_i(ri + 8), cutoff2(cutoff * cutoff);
+      for (std::uint32_t k = 0; k < found; ++k) {
+        const float* rj = record_j + record_offset(static_cast<Index>(candidates[k] >> ClusterListView::code_bits));
+        const Vec3f shift = with_shift ? entry_shift(shifts, candidates[k]) : Vec3f{};
+        const Real dx = x + Real(shift.x) - lanes.load_j(rj), dy = y + Real(shift.y) - lanes.load_j(rj + 4),
+                   dz = z + Real(shift.z) - lanes.load_j(rj + 8);
+        hits[n] = candidates[k];
+        n += lanes.any(dx * dx + dy * dy + dz * dz < cutoff2) ? 1u : 0u;
+      }
+    };
+    crosses ? test(std::true_type{}) : test(std::false_type{});
+    crosses = false;
+    for (std::uint32_t k = 0; k < n; ++k) crosses = crosses | changes_tile(hits[k]);
+    const std::uint32_t next = lanes.allocate(used, n);
     const bool fits = next + n <= capacity;
     write_header(c, next, fits ? n : 0u, crosses);
-    if (!fits) return;
-    if (n <= buffer_size) {
-      for (std::uint32_t k = 0; k < n; ++k) entries[next + k] = buffer[k];
-    } else {
-      for_each_accepted(c, lanes, [&](std::uint32_t entry, bool hit) {
-        if (hit) entries[next++] = entry;
-      });
-    }
+    for (std::uint32_t k = 0; fits && k < n; ++k) entries[next + k] = hits[k];
 #endif
   }
 };
@@ -151,7 +186,7 @@ void ClusterList<Exec>::build(const CellGridView& i, const float* record_i, cons
     }
     exec::pair_pass(exec_, "list::build", chosen.list ? chosen.count : i.clusters,
                     BuildList{i, j, record_i, record_j, cutoff, static_cast<std::uint32_t>(entries_.size()),
-                              used_.data(), begin_.data(), count_.data(), total_.data(), entries_.data(), chosen.list});
+                              used_.data(), begin_.data(), count_.data(), total_.data(), entries_.data(), chosen.list, view()});
     used_entries_ = used_.read(0);
     if (used_entries_ <= entries_.size()) return;
     entries_.resize_discard(used_entries_ + used_entries_ / 16);
