@@ -75,7 +75,8 @@ int run_compare(const std::vector<std::string>& arguments) {
   const char* definition =
       "Differences ours - reference at the reference's points, ours interpolated linearly: RMS, bias (mean), largest (with\n"
       "its sign, and where); also as a share of the reference's range; and the share of points inside the\n"
-      "reference's band. Points outside our range are left out, their number is said.\n";
+      "reference's band. Points outside our range are left out, their number is said. Cf. Oberkampf and Trucano 2002, Prog.\n"
+      "Aerosp. Sci. 38, 209, doi 10.1016/S0376-0421(02)00005-2.\n";
   if (!line.parse(arguments, definition,
                   "surge-analyze gauge dam.run | surge-analyze compare - data/reference/lobovsky_2014_h300_pressure.csv"
                   " --y pressure --where gauge=sensor2 --scale-x 5.718 --scale-y 3.408e-4 --ref-x t_star --ref-y p_median --low p_low --high p_high", "table")) {

@@ -133,7 +133,8 @@ int run_tradeoff(const std::vector<std::string>& arguments) {
   const char* definition =
       "Error against cost. Each run is a point: error, the share by which its quantity differs from the reference, in %; cost,\n"
       "wall seconds per simulated second (run.json); N, the paper's score n t / T. On the Pareto front (yes) are the\n"
-      "points that no other beats in both error and cost.\n";
+      "points that no other beats in both error and cost (Ehrgott 2005, Multicriteria Optimization, Springer, doi\n"
+      "10.1007/3-540-27659-9).\n";
   if (!line.parse(arguments, definition, "surge-analyze tradeoff dp*.run --quantity runup --reference 0.28 --points others.tsv --plot tradeoff.svg")) return 0;
   std::vector<Point> points;
   const auto runs = line.get<std::vector<std::string>>("input");
