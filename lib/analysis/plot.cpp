@@ -372,8 +372,11 @@ void check_plot_path(const std::string& path) {
     throw Error(ErrorKind::usage, "--plot " + path + ": the name must end in .svg, .png or .pdf");
   }
   const fs::path folder = fs::path(path).parent_path();
-  if (!folder.empty() && !fs::is_directory(folder)) {
-    throw Error(ErrorKind::input, "--plot " + path + ": the folder " + folder.string() + " does not exist");
+  if (folder.empty()) return;
+  std::error_code problem;
+  fs::create_directories(folder, problem);
+  if (problem) {
+    throw Error(ErrorKind::resource, "--plot " + path + ": the folder cannot be made: " + problem.message());
   }
 }
 

@@ -51,7 +51,8 @@ struct Figure {
 /// Labels and titles are set in gnuplot's enhanced text ("x_0", "m^3"): names that users gave go through this first.
 std::string plain_text(const std::string& name);
 
-/// The kinds of file that a plot can have; throws Error(usage) when `path` ends otherwise. Call before long work.
+/// Throws Error(usage) when `path` does not end as a plot can; makes its folder if missing, Error(resource) when that
+/// fails. Call before long work.
 void check_plot_path(const std::string& path);
 
 /// Draws through a gnuplot process, writes aside and renames. Throws Error(resource) when gnuplot is missing or

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options.hpp"
 
+#include <malloc.h>
 #include <unistd.h>
 
 #include <charconv>
@@ -126,6 +127,7 @@ int run_measurement(const CommandLine& line, analysis::Measurement& measurement)
     analysis::run_measurements(
         source, {&measurement}, {[&](const std::vector<analysis::Cell>& cells) { writer.row(cells); }},
         [&](double fraction, double time) {
+          ::malloc_trim(0);  // the next frame does not lie in the holes of this one
           if (progress) progress->update(fraction, "t = " + analysis::format_number(time) + " s");
         },
         [] { return cli::interrupted(); });

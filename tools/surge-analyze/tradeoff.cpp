@@ -78,7 +78,7 @@ void add_points(const std::string& path, std::vector<Point>& points) {
 analysis::Figure draw(const std::vector<Point>& points, const std::vector<bool>& front, const std::string& title) {
   analysis::Panel panel;
   panel.title = title;
-  panel.note = "down and to the left is better; named: points that no other beats in both";
+  panel.note = "down and to the left is better; dashed: points that no other beats in both";
   panel.x_label = "wall seconds per simulated second";
   panel.y_label = "error (%)";
   panel.log_x = panel.log_y = true;
@@ -90,7 +90,10 @@ analysis::Figure draw(const std::vector<Point>& points, const std::vector<bool>&
   for (std::size_t k = 0; k < points.size(); ++k) by_cost[k] = k;
   std::sort(by_cost.begin(), by_cost.end(), [&](std::size_t a, std::size_t b) { return points[a].cost < points[b].cost; });
   const double floor = 1e-3;  // %, a logarithmic axis has no zero
+  std::vector<bool> named(points.size(), false);  // on the front, and not on top of the name before
+  double last_cost = 0.0;
   for (const std::size_t k : by_cost) {
+    if (front[k] && points[k].cost > 2.0 * last_cost) named[k] = true, last_cost = points[k].cost;
     if (front[k]) best.x.push_back(points[k].cost), best.y.push_back(std::max(points[k].error, floor));
   }
   panel.series.push_back(best);
@@ -109,7 +112,7 @@ analysis::Figure draw(const std::vector<Point>& points, const std::vector<bool>&
       s.x.push_back(p.cost);
       s.y.push_back(std::max(p.error, floor));
       spacings = spacings && std::isfinite(p.dp);
-      s.name.push_back(!std::isfinite(p.dp) ? analysis::plain_text(p.name) : front[k] ? "dp " + spacing(p.dp) : "");
+      s.name.push_back(!std::isfinite(p.dp) ? analysis::plain_text(p.name) : named[k] ? "dp " + spacing(p.dp) : "");
     }
     s.style = spacings && s.x.size() > 1 ? analysis::MarkStyle::line_points : analysis::MarkStyle::points;
     panel.series.push_back(std::move(s));

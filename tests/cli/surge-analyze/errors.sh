@@ -19,7 +19,7 @@ check "no frames" 3 "$ANALYZE" runup v.case
 check "empty time range" 3 "$ANALYZE" runup v.run --from 100
 check "wrong plot" 2 "$ANALYZE" runup v.run --plot p.jpg
 says err ".svg, .png or .pdf"
-check "plot into no folder" 3 "$ANALYZE" runup v.run --plot no/p.svg
+check "plot where no folder can be" 5 "$ANALYZE" runup v.run --plot v.case/case.toml/p.svg
 check "wrong field" 2 "$ANALYZE" runup v.run --field velocity
 check "wrong dp" 2 "$ANALYZE" runup v.run --dp -1
 check "unknown region" 2 "$ANALYZE" runup v.run --region north

@@ -5,7 +5,7 @@
 "$MAKE_RUN" v.case v.run 8 5 >/dev/null || exit 1
 valid_json() { python3 -m json.tool "$1" >/dev/null || fail "$1 is no JSON"; }
 
-check "map" 0 "$ANALYZE" map v.run -o maps/v
+check "map" 0 "$ANALYZE" map v.run -o maps/v --plot maps/v.png  # both make the folder
 if command -v gdalinfo >/dev/null; then
   gdalinfo -stats maps/v_level_max.tif >info || fail "GDAL does not open the map"
   says info "NoData Value=-9999"
