@@ -9,6 +9,7 @@
 #include "geometry/body_builder.hpp"
 #include "geometry/checksum.hpp"
 #include "geometry/slide_builder.hpp"
+#include "geometry/thin_walls.hpp"
 #include "geometry/water_reach.hpp"
 #include "scene/formula.hpp"
 
@@ -120,8 +121,9 @@ void fill_fluid(const Layout& layout, const FillSpace& space, Case& out, BuildRe
   double level = -1e300;
   for (std::size_t k = 0; k < layout.scene.fluid.fill.size(); ++k) {
     FillReport fill;
-    add_fill(out.fluid.position, fill_water(layout.scene.fluid.fill[k], layout.parts.fluid[k], space, layout.parts, "fluid.fill." + std::to_string(k), fill),
-             layout.lattice.dp);
+    std::vector<Vec3d> points = fill_water(layout.scene.fluid.fill[k], layout.parts.fluid[k], space, layout.parts, "fluid.fill." + std::to_string(k), fill);
+    if (out.fluid.position.empty()) out.fluid.position = std::move(points);
+    else add_fill(out.fluid.position, points, layout.lattice.dp);
     level = std::max(level, fill.level);
     if (fill.open_edge > 0.0) {
       char text[256];
@@ -136,6 +138,19 @@ void fill_fluid(const Layout& layout, const FillSpace& space, Case& out, BuildRe
   thin_to_pores(out.fluid.position, porous_regions(layout, space), space);
   set_start_velocity(layout, out);
   out.still_water_level = out.fluid.position.empty() ? layout.domain.lower.z : level;
+}
+
+void warn_of_thin_walls(const Layout& layout, const FillSpace& space, const ColumnIntervals& walls, const std::vector<Vec3d>& water, BuildReport& report) {
+  const std::optional<ThinWall> thin = thinnest_wall(space, walls, layout.parts, water);
+  if (!thin) return;
+  const double dp = layout.lattice.dp;
+  char text[400];
+  std::snprintf(text, sizeof text,
+                "a wall between water and open space is only %.3g m thick (%.2g dp; about %.3g m of such walls, the thinnest found at x = %.8g m, y = %.8g m, "
+                "z = %.6g m): water sees through walls thinner than %g dp and may not stay still; resolution.dp = %.3g m or finer holds it",
+                thin->thickness, thin->thickness / dp, static_cast<double>(thin->places) * dp, thin->at.x + layout.offset.x, thin->at.y + layout.offset.y,
+                thin->at.z + layout.offset.z, least_wall_spacings, thin->thickness / least_wall_spacings);
+  report.notes.warnings.push_back(text);
 }
 
 void add_body(const Layout& layout, const SolidPart& part, Body body, Case& out) {
@@ -199,14 +214,8 @@ void add_bodies_and_slides(const Layout& layout, Case& out, BuildReport& report,
     const Slide& slide = layout.scene.slides[k];
     if (slide.kind != "granular") {
       report.slides.push_back(add_solid_slide(layout, k, out, report.notes));
-    } else if (scope == BuildScope::everything) {
-      report.slides.push_back(add_granular_slide(layout, k, out.grains, report.notes));
     } else {
-      SlideReport only_volume;
-      only_volume.name = slide.name;
-      only_volume.kind = slide.kind;
-      only_volume.volume = free_volume(layout, layout.parts.slides[k]);
-      report.slides.push_back(only_volume);
+      report.slides.push_back(add_granular_slide(layout, k, scope, out.grains, report.notes));
     }
   }
   for (std::size_t k = 0; k < layout.parts.floating.size(); ++k) {
@@ -246,6 +255,7 @@ Case build_case(const Scene& scene, BuildReport& report, const std::string& vdb_
   const FillSpace space = fill_space(layout, walls);
   stages.begin("filling water");
   fill_fluid(layout, space, out, report);
+  warn_of_thin_walls(layout, space, walls, out.fluid.position, report);
   stages.begin("placing walls");
   const std::optional<WaterReach> reach = wanted_walls(layout, space, walls, out.fluid.position, report);
   std::vector<BandPoint> band = wall_band(layout, reach ? within_reach(layout.walls, *reach, space) : layout.walls, space, walls, vdb_path);

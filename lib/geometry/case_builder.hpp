@@ -32,7 +32,7 @@ struct BuildReport {
   std::vector<std::pair<std::string, double>> seconds;   ///< per stage
 };
 
-/// `counts_only`: grains are not packed, only their space is measured.
+/// `counts_only`: grains are spread over their slide, as many as were asked for, but not moved apart.
 enum class BuildScope { everything, counts_only };
 
 /// Builds the case. `vdb_path`: where boundary.vdb goes (empty: not written). `on_stage`, if set, is called with the

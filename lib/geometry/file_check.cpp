@@ -89,6 +89,7 @@ void check_mesh(FileReport& r) {
 void check_raster(FileReport& r) {
   Raster raster = read_raster(r.path, {});
   r.kind = "raster";
+  for (const std::string& w : raster.warnings) r.found.push_back(w.substr(r.path.size() + 2));
   std::size_t missing = 0;
   for (const double z : raster.field.z) missing += !std::isfinite(z);
   r.numbers = {{"columns", raster.field.nx}, {"rows", raster.field.ny}, {"dx", raster.field.dx}, {"dy", raster.field.dy}};

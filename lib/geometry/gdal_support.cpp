@@ -23,6 +23,11 @@ OGRSpatialReference parsed(const std::string& text) {
   return crs;
 }
 
+void CPL_STDCALL hand_over(CPLErr level, CPLErrorNum, const char* text) {
+  if (level == CE_Debug) return;
+  static_cast<QuietGdal*>(CPLGetErrorHandlerUserData())->remember(level == CE_Warning, text);
+}
+
 }  // namespace
 
 void gdal_start() {
@@ -37,17 +42,21 @@ std::string gdal_path(const std::string& path) {
   return path.size() > 3 && path.compare(path.size() - 3, 3, ".gz") == 0 ? "/vsigzip/" + path : path;
 }
 
-QuietGdal::QuietGdal() {
-  CPLErrorReset();
-  CPLPushErrorHandler(CPLQuietErrorHandler);
-}
+QuietGdal::QuietGdal() { CPLPushErrorHandlerEx(hand_over, this); }
 
 QuietGdal::~QuietGdal() { CPLPopErrorHandler(); }
 
-std::string QuietGdal::message() const {
-  std::string text = CPLGetLastErrorMsg();
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text.empty() ? "no reason given" : text;
+void QuietGdal::remember(bool warning, const char* text) {
+  last_ = text;
+  std::replace(last_.begin(), last_.end(), '\n', ' ');
+  if (warning && ++warning_count_ == 1) first_warning_ = last_;
+}
+
+std::string QuietGdal::message() const { return last_.empty() ? "no reason given" : last_; }
+
+std::vector<std::string> QuietGdal::warnings(const std::string& path) const {
+  if (warning_count_ == 0) return {};
+  return {path + ": GDAL warns: " + first_warning_ + (warning_count_ > 1 ? " (and " + std::to_string(warning_count_ - 1) + " more)" : "")};
 }
 
 std::string wkt_of(const OGRSpatialReference& crs) {

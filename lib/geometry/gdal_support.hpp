@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 class OGRSpatialReference;
 
@@ -13,14 +14,23 @@ void gdal_start();
 /// GDAL's name of a file: /vsigzip/ in front of *.gz.
 std::string gdal_path(const std::string& path);
 
-/// Keeps GDAL from printing while it lives; message() is its last complaint.
+/// Keeps GDAL from printing while it lives, on this thread, and remembers what it had to say.
 class QuietGdal {
  public:
   QuietGdal();
   ~QuietGdal();
   QuietGdal(const QuietGdal&) = delete;
   QuietGdal& operator=(const QuietGdal&) = delete;
+  /// The last complaint of any kind; "no reason given" without one.
   std::string message() const;
+  /// "PATH: GDAL warns: ..." with the first warning and the number of further ones; none: empty.
+  std::vector<std::string> warnings(const std::string& path) const;
+
+  void remember(bool warning, const char* text);
+
+ private:
+  std::string last_, first_warning_;
+  int warning_count_ = 0;
 };
 
 /// WKT of a coordinate system given in any form; throws Error(input) naming `where` when it is unknown.

@@ -104,12 +104,13 @@ Box polygon_bounds(const std::vector<Point2>& polygon) {
 }
 
 /// Thickness raster with data-free nodes as 0, in scene coordinates.
-Heightfield thickness_field(const Shape& shape, const Scene& scene, const std::string& target_crs) {
+Heightfield thickness_field(const Shape& shape, const Scene& scene, const std::string& target_crs, Notes& notes) {
   RasterOptions o;
   o.scale = scene.terrain.scale;
   o.crs = scene.terrain.crs;
   o.target_crs = target_crs;
   Raster r = read_raster(shape.thickness, o);
+  notes.warnings.insert(notes.warnings.end(), r.warnings.begin(), r.warnings.end());
   for (auto& z : r.field.z) z = std::isfinite(z) ? z : 0.0;
   return r.field;
 }
@@ -126,14 +127,14 @@ std::size_t lower_terrain(TriangleMesh& terrain, const Heightfield& floor) {
   return lowered;
 }
 
-Layer polygon_layer(const Shape& shape, const std::string& name, const Scene& scene, const TerrainSheet& terrain) {
+Layer polygon_layer(const Shape& shape, const std::string& name, const Scene& scene, const TerrainSheet& terrain, Notes& notes) {
   Layer layer;
   if (shape.thickness.empty()) {
     const double spacing = std::min(terrain.spacing > 0.0 ? terrain.spacing : scene.dp, scene.dp);
     layer.grid = grid_over(polygon_bounds(shape.polygon), spacing);
     layer.thickness.assign(static_cast<std::size_t>(layer.grid.nx) * layer.grid.ny, shape.uniform_thickness);
   } else {
-    layer.grid = thickness_field(shape, scene, terrain.crs);
+    layer.grid = thickness_field(shape, scene, terrain.crs, notes);
     layer.thickness = layer.grid.z;
   }
   layer.bottom = heights_on_grid(terrain.mesh, layer.grid);
@@ -227,7 +228,7 @@ TriangleMesh layered_body(const Shape& shape, const std::string& name, const Sce
   if (terrain.mesh.empty()) {
     throw Error(ErrorKind::input, name + ": a polygon with a thickness stands on the terrain, but the scene has none (terrain.files)");
   }
-  Layer layer = polygon_layer(shape, name, scene, terrain);
+  Layer layer = polygon_layer(shape, name, scene, terrain, notes);
   dig_out(layer, terrain, name, notes);
   return layer_mesh(layer, name);
 }

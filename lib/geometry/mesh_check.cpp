@@ -16,14 +16,12 @@
 #include <CGAL/boost/graph/helpers.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
-#include <map>
-#include <unordered_map>
 
 #include "core/error.hpp"
 #include "geometry/columns.hpp"
+#include "geometry/mesh_topology.hpp"
 
 namespace gdesp::geometry {
 namespace {
@@ -32,7 +30,6 @@ namespace pmp = CGAL::Polygon_mesh_processing;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using Surface = CGAL::Surface_mesh<Point>;
-using Polygon = std::vector<std::size_t>;
 
 std::string at(const Vec3d& p) {
   char text[96];
@@ -44,38 +41,6 @@ Vec3d vec(const Point& p) { return {p.x(), p.y(), p.z()}; }
 
 std::string plural(std::size_t n, const char* one, const char* many) { return std::to_string(n) + " " + (n == 1 ? one : many); }
 
-/// Edges by number of triangles, and by direction of use.
-struct EdgeUse { int forward = 0, backward = 0; };
-
-struct EdgeCounts {
-  std::size_t border = 0, non_manifold = 0, inconsistent = 0;
-  Vec3d non_manifold_at;
-};
-
-EdgeCounts count_edges(const TriangleMesh& mesh) {
-  std::unordered_map<std::uint64_t, EdgeUse> use;
-  use.reserve(mesh.triangle.size() * 2);
-  for (const auto& t : mesh.triangle) {
-    for (int c = 0; c < 3; ++c) {
-      const auto a = static_cast<std::uint64_t>(t[c]), b = static_cast<std::uint64_t>(t[(c + 1) % 3]);
-      if (a == b) continue;
-      EdgeUse& e = use[std::min(a, b) << 32 | std::max(a, b)];
-      ++(a < b ? e.forward : e.backward);
-    }
-  }
-  EdgeCounts out;
-  for (const auto& [key, e] : use) {
-    const int n = e.forward + e.backward;
-    out.border += n == 1;
-    out.inconsistent += n == 2 && e.forward != 1;
-    if (n <= 2) continue;
-    const Vec3d middle = (mesh.vertex[key >> 32] + mesh.vertex[key & 0xffffffffu]) * 0.5;
-    if (out.non_manifold == 0 || middle.x < out.non_manifold_at.x) out.non_manifold_at = middle;
-    ++out.non_manifold;
-  }
-  return out;
-}
-
 std::size_t count_degenerate(const TriangleMesh& mesh) {
   std::size_t n = 0;
   for (const auto& t : mesh.triangle) {
@@ -83,45 +48,6 @@ std::size_t count_degenerate(const TriangleMesh& mesh) {
     n += CGAL::collinear(Point(a.x, a.y, a.z), Point(b.x, b.y, b.z), Point(c.x, c.y, c.z));
   }
   return n;
-}
-
-/// A sheet that needs nothing: every triangle looks up, every edge is used once or twice and then both ways, there is one rim,
-/// and no two triangles lie over one another. Such a mesh, the common case, is spared the machinery below.
-bool is_plain_sheet(const TriangleMesh& mesh) {
-  std::vector<std::uint64_t> edges;   // directed, by the smaller end; the lowest bit tells the direction
-  edges.reserve(3 * mesh.triangle.size());
-  for (const auto& t : mesh.triangle) {
-    if (!(cross(mesh.vertex[t.y] - mesh.vertex[t.x], mesh.vertex[t.z] - mesh.vertex[t.x]).z > 0.0)) return false;
-    for (int c = 0; c < 3; ++c) {
-      const auto a = static_cast<std::uint64_t>(t[c]), b = static_cast<std::uint64_t>(t[(c + 1) % 3]);
-      edges.push_back((std::min(a, b) << 33 | std::max(a, b) << 1) | (a < b ? 0u : 1u));
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  std::unordered_map<std::uint64_t, std::uint64_t> next;   // along the rim
-  for (std::size_t k = 0; k < edges.size(); ++k) {
-    const std::uint64_t edge = edges[k] >> 1, a = edge >> 32, b = edge & 0xffffffffu;
-    if (k + 1 < edges.size() && edges[k + 1] >> 1 == edge) {
-      if (edges[k] == edges[k + 1] || (k + 2 < edges.size() && edges[k + 2] >> 1 == edge)) return false;
-      ++k;
-    } else if (!next.emplace(edges[k] & 1 ? b : a, edges[k] & 1 ? a : b).second) {
-      return false;
-    }
-  }
-  if (next.empty()) return false;
-  std::size_t length = 0;
-  const std::uint64_t start = next.begin()->first;
-  for (std::uint64_t at = start; length == 0 || at != start; ++length) {
-    const auto step = next.find(at);
-    if (step == next.end() || length > next.size()) return false;
-    at = step->second;
-  }
-  if (length != next.size()) return false;
-  const Box box = bounds(mesh);
-  const double widest = std::max(extent(box).x, extent(box).y);
-  std::size_t folded = 0;
-  sheet_heights(mesh, covering_columns(box, widest / 400.0), 1e-6 * widest, &folded);
-  return folded == 0;
 }
 
 MeshReport plain_sheet_report(const TriangleMesh& mesh) {
@@ -189,65 +115,14 @@ class Repair {
     non_manifold_at_ = edges.non_manifold_at;
     if (report_.duplicate_vertices) did(plural(report_.duplicate_vertices, "vertex at the place of another joined with it", "vertices at the places of others joined with them"));
     const std::size_t before = triangles_.size();
-    triangles_.erase(std::remove_if(triangles_.begin(), triangles_.end(), [](const Polygon& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }),
+    triangles_.erase(std::remove_if(triangles_.begin(), triangles_.end(), [](const TriangleSoup::value_type& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }),
                      triangles_.end());
     if (const std::size_t n = before - triangles_.size()) did(plural(n, "triangle without area removed", "triangles without area removed"));
-    if (const std::size_t n = remove_flaps()) did(plural(n, "pair", "pairs") + " of triangles back to back, with nothing between them, removed");
+    if (const std::size_t n = remove_flaps(triangles_)) did(plural(n, "pair", "pairs") + " of triangles back to back, with nothing between them, removed");
     report_.duplicate_triangles = pmp::merge_duplicate_polygons_in_polygon_soup(points_, triangles_, CGAL::parameters::require_same_orientation(false));
     if (report_.duplicate_triangles) did(plural(report_.duplicate_triangles, "double triangle removed", "double triangles removed"));
     report_.unused_vertices = pmp::remove_isolated_points_in_polygon_soup(points_, triangles_);
     if (report_.unused_vertices) did(plural(report_.unused_vertices, "unused vertex dropped", "unused vertices dropped"));
-  }
-
-  /// Two triangles on the same corners that look opposite ways enclose nothing: where layers thin out to nothing. Both go when the
-  /// edges they leave are then used in pairs; otherwise they are one facet given twice, and one stays.
-  std::size_t remove_flaps() {
-    using Key = std::array<std::size_t, 3>;
-    std::vector<std::pair<Key, std::size_t>> order;
-    order.reserve(triangles_.size());
-    for (std::size_t t = 0; t < triangles_.size(); ++t) {
-      Key key{triangles_[t][0], triangles_[t][1], triangles_[t][2]};
-      std::sort(key.begin(), key.end());
-      order.push_back({key, t});
-    }
-    std::sort(order.begin(), order.end());
-    std::map<Key, std::array<std::size_t, 2>> same;
-    for (std::size_t k = 0, next = 0; k < order.size(); k = next) {
-      while (next < order.size() && order[next].first == order[k].first) ++next;
-      if (next - k == 2) same[order[k].first] = {order[k].second, order[k + 1].second};
-    }
-    if (same.empty()) return 0;
-    std::map<std::pair<std::size_t, std::size_t>, int> uses;   // of edges, by triangles that are not doubled
-    for (const auto& t : triangles_) {
-      Key key{t[0], t[1], t[2]};
-      std::sort(key.begin(), key.end());
-      if (same.count(key)) continue;
-      for (int c = 0; c < 3; ++c) ++uses[std::minmax(t[c], t[(c + 1) % 3])];
-    }
-    std::vector<bool> gone(triangles_.size(), false);
-    std::size_t pairs = 0;
-    for (const auto& [key, pair] : same) {
-      if (same_turn(triangles_[pair[0]], triangles_[pair[1]])) continue;
-      int odd = 0;
-      for (int c = 0; c < 3; ++c) odd += uses[{key[c == 2 ? 0 : c], key[c == 2 ? 2 : c + 1]}] % 2;
-      if (odd > 1) continue;
-      gone[pair[0]] = gone[pair[1]] = true;
-      ++pairs;
-    }
-    std::size_t n = 0;
-    for (std::size_t t = 0; t < triangles_.size(); ++t) {
-      if (!gone[t]) triangles_[n++] = triangles_[t];
-    }
-    triangles_.resize(n);
-    return pairs;
-  }
-
-  /// Whether two triangles on the same corners go round them the same way.
-  static bool same_turn(const Polygon& a, const Polygon& b) {
-    for (int c = 0; c < 3; ++c) {
-      if (a[0] == b[c]) return a[1] == b[(c + 1) % 3];
-    }
-    return false;
   }
 
   TriangleMesh from_soup() const {
@@ -482,7 +357,7 @@ class Repair {
   const RepairLimits& limits_;
   MeshReport report_;
   std::vector<Point> points_;
-  std::vector<Polygon> triangles_;
+  TriangleSoup triangles_;
   Surface surface_;
   Vec3d non_manifold_at_, intersection_at_, fold_at_;
   double folds_ = 0.0;

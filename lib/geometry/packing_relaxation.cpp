@@ -14,11 +14,12 @@ namespace {
 
 constexpr double tolerance = packing_overlap;
 constexpr double inflation = 1.003;       // grains are moved apart as if they were this much larger
-constexpr double step = 0.25;             // share of the summed overlap added to the displacement in one iteration
+constexpr double step = 0.35;             // share of the summed overlap added to the displacement in one iteration
 constexpr double memory = 0.96;           // of the last displacement
 constexpr double wall_weight = 1.5;
 constexpr double longest_step = 0.1;      // of the diameter, in one iteration
 constexpr int most_iterations = 6000;
+constexpr int roll_call = 10;             // iterations
 constexpr int review = 150;               // iterations between looks at the progress
 constexpr double slow = 0.8;              // the sum of overlaps must fall below this share between two looks, else grains go
 constexpr double still = 1e-4;            // of the diameter, in one iteration: a free grain slower than this is halted
@@ -110,7 +111,7 @@ class Relaxation {
           continue;
         }
       }
-      move_awake();
+      move_awake(iteration);
       if (vicinity_.is_stale(s_)) vicinity_.renew(s_);
     }
     return iteration;
@@ -147,8 +148,10 @@ class Relaxation {
     return largest;
   }
 
-  void move_awake() {
-    for (const std::uint32_t i : list_) awake_[i] = 0;
+  /// While most grains are awake, all stay so: to find out who may sleep costs as much as it saves.
+  void move_awake(int iteration) {
+    const bool all = 2 * list_.size() > awake_.size() && iteration % roll_call != 0;
+    std::fill(awake_.begin(), awake_.end(), all ? 1 : 0);
 #pragma omp parallel for schedule(dynamic, 1024) if (list_.size() > worth_threads)
     for (std::size_t k = 0; k < list_.size(); ++k) {
       const std::uint32_t i = list_[k];
@@ -162,6 +165,7 @@ class Relaxation {
       motion_[i] = m;
       if (m == Vec3d{}) continue;
       s_.position[i] += m;
+      if (all) continue;
       wake(i);
       for (std::uint32_t j = vicinity_.first[i]; j < vicinity_.first[i + 1]; ++j) wake(vicinity_.other[j]);
     }

@@ -8,6 +8,7 @@ namespace gdesp::geometry {
 namespace {
 
 constexpr std::size_t cells_per_grain = 32;   // at most; a box much larger than its grains gets wider cells
+constexpr std::size_t block_size = 1024;      // grains whose lists one thread finds at a time
 
 }  // namespace
 
@@ -85,43 +86,61 @@ bool Vicinity::is_stale(const PackingState& s) const {
   return stale;
 }
 
+namespace {
+
+/// Lists found by blocks of grains, laid end to end: list i is other[first[i]] to other[first[i + 1] - 1].
+template <class Item>
+void join(const std::vector<std::vector<Item>>& block, std::vector<std::uint32_t>& first, std::vector<Item>& other) {
+  std::vector<std::size_t> start(block.size() + 1, 0);
+  for (std::size_t b = 0; b < block.size(); ++b) start[b + 1] = start[b] + block[b].size();
+  other.resize(start.back());
+#pragma omp parallel for schedule(static) if (other.size() > worth_threads)
+  for (std::size_t b = 0; b < block.size(); ++b) std::copy(block[b].begin(), block[b].end(), other.begin() + static_cast<std::ptrdiff_t>(start[b]));
+  for (std::size_t i = 0; i + 1 < first.size(); ++i) first[i + 1] += first[i];
+}
+
+}  // namespace
+
 void Vicinity::find_pairs(const PackingState& s) {
   const std::size_t n = s.position.size();
   const Cells cells(s, reach_);
-  const auto visit = [&](std::size_t i, const auto& use) {
-    const Vec3d p = s.position[i];
-    cells.around(p, [&](std::uint32_t m) {
-      const Vec3d d = p - cells.at[m];
-      const double d2 = dot(d, d);
-      if (d2 >= reach_ * reach_) return;
-      const std::uint32_t j = cells.member[m];
-      const double reach = 0.5 * inflation_ * (static_cast<double>(s.diameter[i]) + s.diameter[j]) + skin_;
-      if (d2 < reach * reach && j != i) use(j);
-    });
-  };
+  std::vector<std::vector<std::uint32_t>> found(n / block_size + 1);
   first.assign(n + 1, 0);
-#pragma omp parallel for schedule(static, 1024) if (n > worth_threads)
-  for (std::size_t i = 0; i < n; ++i) visit(i, [&](std::uint32_t) { ++first[i + 1]; });
-  for (std::size_t i = 0; i < n; ++i) first[i + 1] += first[i];
-  other.resize(first[n]);
-#pragma omp parallel for schedule(static, 1024) if (n > worth_threads)
-  for (std::size_t i = 0; i < n; ++i) {
-    std::uint32_t at = first[i];
-    visit(i, [&](std::uint32_t j) { other[at++] = j; });
+#pragma omp parallel for schedule(dynamic) if (n > worth_threads)
+  for (std::size_t b = 0; b < found.size(); ++b) {
+    std::vector<std::uint32_t>& list = found[b];
+    for (std::size_t i = b * block_size; i < std::min(n, (b + 1) * block_size); ++i) {
+      const Vec3d p = s.position[i];
+      const std::size_t before = list.size();
+      cells.around(p, [&](std::uint32_t m) {
+        const Vec3d d = p - cells.at[m];
+        const double d2 = dot(d, d);
+        if (d2 >= reach_ * reach_) return;
+        const std::uint32_t j = cells.member[m];
+        const double reach = 0.5 * inflation_ * (static_cast<double>(s.diameter[i]) + s.diameter[j]) + skin_;
+        if (d2 < reach * reach && j != i) list.push_back(j);
+      });
+      first[i + 1] = static_cast<std::uint32_t>(list.size() - before);
+    }
   }
+  join(found, first, other);
 }
 
 void Vicinity::find_walls(const PackingState& s) {
   const std::size_t n = s.position.size();
-  std::vector<std::vector<std::int32_t>> near(n);
-#pragma omp parallel for schedule(dynamic, 256) if (n > worth_threads)
-  for (std::size_t i = 0; i < n; ++i) walls_->within(s.position[i], 0.5 * inflation_ * s.diameter[i] + skin_, near[i]);
+  std::vector<std::vector<std::int32_t>> found(n / block_size + 1);
   first_wall.assign(n + 1, 0);
-  wall.clear();
-  for (std::size_t i = 0; i < n; ++i) {
-    wall.insert(wall.end(), near[i].begin(), near[i].end());
-    first_wall[i + 1] = static_cast<std::uint32_t>(wall.size());
+#pragma omp parallel for schedule(dynamic) if (n > worth_threads)
+  for (std::size_t b = 0; b < found.size(); ++b) {
+    std::vector<std::int32_t> near;
+    for (std::size_t i = b * block_size; i < std::min(n, (b + 1) * block_size); ++i) {
+      near.clear();
+      walls_->within(s.position[i], 0.5 * inflation_ * s.diameter[i] + skin_, near);
+      found[b].insert(found[b].end(), near.begin(), near.end());
+      first_wall[i + 1] = static_cast<std::uint32_t>(near.size());
+    }
   }
+  join(found, first_wall, wall);
 }
 
 }  // namespace gdesp::geometry

@@ -48,6 +48,7 @@ bool numbers_of(std::string_view line, double (&out)[3], int& count) {
 
 void reproject(std::vector<Vec3d>& points, const std::string& path, const RasterOptions& o) {
   if (o.target_crs.empty() || o.crs.empty() || same_crs(check_crs(o.crs, path), check_crs(o.target_crs, path))) return;
+  const QuietGdal quiet;
   OGRSpatialReference from, to;
   from.SetFromUserInput(o.crs.c_str());
   to.SetFromUserInput(o.target_crs.c_str());
@@ -68,6 +69,8 @@ void reproject(std::vector<Vec3d>& points, const std::string& path, const Raster
 std::vector<Vec3d> read_points(const std::string& path, const RasterOptions& o) {
   if (!std::filesystem::exists(path)) throw Error(ErrorKind::input, path + ": no such file");
   const std::string text = read_text(path);
+  if (text.substr(0, 4096).find('\0') != std::string::npos)
+    throw Error(ErrorKind::input, path + ": is neither text with points nor a raster that can be read (GeoTIFF, ESRI ASCII, USGS DEM, XYZ grid are); is it damaged or cut short?");
   std::vector<Vec3d> points;
   std::size_t line_number = 0, at = 0;
   while (at < text.size()) {

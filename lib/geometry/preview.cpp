@@ -104,6 +104,28 @@ SectionPlane section_plane(const Case& c) {
   return {along_x, 0.5 * (through.lower[across] + through.upper[across])};
 }
 
+constexpr double picture_width = 1150.0, picture_height = 520.0;   // px, room of one plot inside its labels
+
+/// Distance of an axis' labels (m): the smallest of 1, 2, 5 times a power of ten at which labels of this size do not touch.
+double label_step(double length, double pixels, double label_pixels) {
+  const double least = std::max(length * label_pixels / pixels, 1e-300);
+  const double power = std::pow(10.0, std::floor(std::log10(least)));
+  for (const double m : {1.0, 2.0, 5.0}) {
+    if (m * power >= least) return m * power;
+  }
+  return 10.0 * power;
+}
+
+/// Both axes at one scale, with as many labels as have room; coordinates in full, as large as UTM's.
+void set_axes(FILE* out, const char* u_name, const char* v_name, double u0, double v0, double u1, double v1) {
+  const double scale = std::min(picture_width / std::max(u1 - u0, 1e-300), picture_height / std::max(v1 - v0, 1e-300));   // px per m
+  const double digits = std::floor(std::log10(std::max({std::abs(u0), std::abs(u1), 1.0}))) + 1.0;
+  const double decimals = std::max(0.0, std::ceil(-std::log10((u1 - u0) / 10.0)));
+  const double u_step = label_step(u1 - u0, (u1 - u0) * scale, 9.0 * (digits + decimals + 3.0));
+  const double v_step = label_step(v1 - v0, (v1 - v0) * scale, 24.0);
+  std::fprintf(out, "set size ratio -1\nset xlabel '%s [m]'\nset ylabel '%s [m]'\nset xtics %.9g\nset ytics %.9g\n", u_name, v_name, u_step, v_step);
+}
+
 void draw(FILE* out, const Case& c, const std::string& path) {
   const auto particles = all_particles(c);
   Box box = empty_box();
@@ -123,14 +145,16 @@ void draw(FILE* out, const Case& c, const std::string& path) {
     if (std::abs(s.at[across] - plane.at) <= half) side.put(p[u], p.z, s.kind == grain_kind ? 1.0 : 0.0, colour);
   }
   const char* const name = plane.along_x ? "x" : "y";
-  std::fprintf(out, "set terminal pngcairo size 1400,%d\nset output '%s'\nunset key\nset format '%%g'\n", c.scene.dimensions == 2 ? 700 : 1500, path.c_str());
-  if (c.scene.dimensions == 3) std::fputs("set multiplot layout 2,1\n", out);
+  const Box shown{box.lower + c.offset, box.upper + c.offset};
+  std::fprintf(out, "set terminal pngcairo size 1400,%d\nset output '%s'\nunset key\nset format '%%.10g'\n", c.scene.dimensions == 2 ? 700 : 1500, path.c_str());
   if (c.scene.dimensions == 3) {
-    std::fprintf(out, "set size ratio -1\nset title 'from above: ground grey, water blue, grains brown, bodies red'\nset xlabel 'x [m]'\nset ylabel 'y [m]'\nplot '-' using 1:2:3:4:5 with rgbimage\n");
+    std::fputs("set multiplot layout 2,1\n", out);
+    set_axes(out, "x", "y", shown.lower.x, shown.lower.y, shown.upper.x, shown.upper.y);
+    std::fputs("set title 'from above: ground grey, water blue, grains brown, bodies red'\nplot '-' using 1:2:3:4:5 with rgbimage\n", out);
     plan.print(out);
   }
-  std::fprintf(out, "set size ratio -1\nset title 'vertical section at %s = %.6g m'\nset xlabel '%s [m]'\nset ylabel 'z [m]'\nplot '-' using 1:2:3:4:5 with rgbimage\n",
-               plane.along_x ? "y" : "x", plane.at + c.offset[across], name);
+  set_axes(out, name, "z", shown.lower[u], shown.lower.z, shown.upper[u], shown.upper.z);
+  std::fprintf(out, "set title 'vertical section at %s = %.8g m'\nplot '-' using 1:2:3:4:5 with rgbimage\n", plane.along_x ? "y" : "x", plane.at + c.offset[across]);
   side.print(out);
   if (c.scene.dimensions == 3) std::fputs("unset multiplot\n", out);
 }

@@ -29,9 +29,7 @@ using Dataset = std::unique_ptr<GDALDataset, CloseDataset>;
 const char* const terrain_drivers[] = {"GTiff", "COG", "AAIGrid", "USGSDEM", "XYZ", "SRTMHGT", "HFA", "EHdr", "ENVI", "GSAG",
                                        "GSBG", "GS7BG", "GRASSASCIIGrid", "netCDF", "DTED", "SDTS", "VRT", "BT", nullptr};
 
-Dataset open_quietly(const std::string& path) {
-  gdal_start();
-  const QuietGdal quiet;
+Dataset open(const std::string& path) {
   return Dataset(GDALDataset::Open(gdal_path(path).c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, terrain_drivers));
 }
 
@@ -39,7 +37,7 @@ Dataset open_quietly(const std::string& path) {
   throw Error(ErrorKind::input, path + ": " + why);
 }
 
-Dataset warp(Dataset source, const std::string& path, const std::string& from, const std::string& to) {
+Dataset warp(Dataset source, const std::string& path, const std::string& from, const std::string& to, const QuietGdal& quiet) {
   std::vector<std::string> words = {"-of", "MEM", "-r", "bilinear", "-ot", "Float64", "-dstnodata", "nan", "-t_srs", to};
   if (!from.empty()) words.insert(words.end(), {"-s_srs", from});
   std::vector<char*> argv;
@@ -47,7 +45,6 @@ Dataset warp(Dataset source, const std::string& path, const std::string& from, c
   argv.push_back(nullptr);
   const std::unique_ptr<GDALWarpAppOptions, void (*)(GDALWarpAppOptions*)> options(
       GDALWarpAppOptionsNew(argv.data(), nullptr), &GDALWarpAppOptionsFree);
-  const QuietGdal quiet;
   GDALDatasetH sources[] = {GDALDataset::ToHandle(source.get())};
   int usage_error = 0;
   GDALDatasetH out = options ? GDALWarp("", nullptr, 1, sources, options.get(), &usage_error) : nullptr;
@@ -73,7 +70,7 @@ void check_size(GDALDataset& data, const std::string& path) {
 }
 
 /// Rows from the south, data-free nodes NaN.
-Heightfield read_band(GDALDataset& data, const std::string& path) {
+Heightfield read_band(GDALDataset& data, const std::string& path, const QuietGdal& quiet) {
   double g[6] = {0, 1, 0, 0, 0, -1};
   if (data.GetGeoTransform(g) != CE_None) refuse(path, "the raster does not say where it lies (no geotransform)");
   if (std::abs(g[2]) > 1e-9 * std::abs(g[1]) || std::abs(g[4]) > 1e-9 * std::abs(g[5])) {
@@ -94,7 +91,6 @@ Heightfield read_band(GDALDataset& data, const std::string& path) {
   f.y0 = g[3] + 0.5 * g[5] + (g[5] < 0 ? (ny - 1) * g[5] : 0.0);
   f.z.resize(static_cast<std::size_t>(nx) * ny);
   GDALRasterBand* band = data.GetRasterBand(1);
-  const QuietGdal quiet;
   if (band->RasterIO(GF_Read, 0, 0, nx, ny, f.z.data(), nx, ny, GDT_Float64, 0, 0) != CE_None) {
     refuse(path, "is damaged or cut short (" + quiet.message() + ")");
   }
@@ -129,11 +125,17 @@ void scale(Heightfield& f, const RasterOptions& o) {
 
 }  // namespace
 
-bool is_raster(const std::string& path) { return open_quietly(path) != nullptr; }
+bool is_raster(const std::string& path) {
+  gdal_start();
+  const QuietGdal quiet;
+  return open(path) != nullptr;
+}
 
 Raster read_raster(const std::string& path, const RasterOptions& options) {
   if (!std::filesystem::exists(path)) refuse(path, "no such file");
-  Dataset data = open_quietly(path);
+  gdal_start();
+  const QuietGdal quiet;   // outlives the data set: closing may warn, too
+  Dataset data = open(path);
   if (!data) refuse(path, "is no raster that can be read (GeoTIFF, ESRI ASCII, USGS DEM, XYZ grid are), or it is damaged");
   check_size(*data, path);
   Raster out;
@@ -151,11 +153,12 @@ Raster read_raster(const std::string& path, const RasterOptions& options) {
   }
   if (!target.empty()) {
     if (crs.empty()) refuse(path, "its coordinate system is unknown; state it (terrain.crs = \"EPSG:...\")");
-    if (!same_crs(crs, target)) data = warp(std::move(data), path, crs, target);
+    if (!same_crs(crs, target)) data = warp(std::move(data), path, crs, target, quiet);
     crs = check_crs(target, path);
   }
-  out.field = read_band(*data, path);
+  out.field = read_band(*data, path, quiet);
   out.crs = crs;
+  out.warnings = quiet.warnings(path);
   scale(out.field, options);
   if (is_empty(bounds(out.field))) refuse(path, "holds no elevation at all (every cell is without data)");
   return out;
@@ -206,7 +209,11 @@ Raster read_tiles(const std::vector<std::string>& paths, const RasterOptions& op
   RasterOptions rest = options;
   rest.target_crs = first.crs;
   std::vector<Heightfield> tiles = {first.field};
-  for (std::size_t k = 1; k < paths.size(); ++k) tiles.push_back(read_raster(paths[k], rest).field);
+  for (std::size_t k = 1; k < paths.size(); ++k) {
+    Raster next = read_raster(paths[k], rest);
+    first.warnings.insert(first.warnings.end(), next.warnings.begin(), next.warnings.end());
+    tiles.push_back(std::move(next.field));
+  }
   first.field = merge(tiles);
   return first;
 }

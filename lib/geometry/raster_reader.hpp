@@ -23,6 +23,7 @@ struct Raster {
   Heightfield field;
   std::string crs;               ///< WKT; empty when unknown
   std::string driver;            ///< GDAL's short name of the format
+  std::vector<std::string> warnings;   ///< "PATH: ...", of the library that reads
 };
 
 /// Whether GDAL recognises the file as a raster (extension is not looked at).

@@ -93,10 +93,11 @@ void warn_of_packing(const Packing& packing, const Slide& slide, Notes& notes) {
 
 }  // namespace
 
-SlideReport add_granular_slide(const Layout& layout, std::size_t index, GrainTable& grains, Notes& notes) {
+SlideReport add_granular_slide(const Layout& layout, std::size_t index, BuildScope scope, GrainTable& grains, Notes& notes) {
   const auto start = std::chrono::steady_clock::now();
   const Slide& slide = layout.scene.slides[index];
-  const Packing packing = pack_spheres(request_of(layout, index));
+  const PackingRequest request = request_of(layout, index);
+  const Packing packing = scope == BuildScope::everything ? pack_spheres(request) : scatter_spheres(request);
   SlideReport report;
   report.name = slide.name;
   report.kind = slide.kind;
@@ -113,7 +114,7 @@ SlideReport add_granular_slide(const Layout& layout, std::size_t index, GrainTab
     grains.velocity.push_back(static_cast<Vec3f>(slide.velocity));
     grains.group.push_back(static_cast<std::int32_t>(index));
   }
-  warn_of_packing(packing, slide, notes);
+  if (scope == BuildScope::everything) warn_of_packing(packing, slide, notes);
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;
 }

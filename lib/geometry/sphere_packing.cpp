@@ -115,42 +115,64 @@ void jitter(std::vector<Vec3d>& sites, const TriangleTree& walls, double reach, 
   }
 }
 
+struct Sizes { double mean, smallest, largest; };   // m
+
+Sizes sizes_of(const PackingRequest& r) {
+  if (r.sieve.empty()) return {r.diameter, r.diameter - 3.0 * r.deviation, r.diameter + 3.0 * r.deviation};
+  Sizes s{r.sieve.front().diameter, r.sieve.front().diameter, r.sieve.front().diameter};
+  for (const auto& c : r.sieve) s.smallest = std::min(s.smallest, c.diameter), s.largest = std::max(s.largest, c.diameter);
+  return s;
+}
+
+void require_one(bool any, const PackingRequest& r, double volume) {
+  if (!any) throw Error(ErrorKind::input, "no grain of diameter " + std::to_string(sizes_of(r).mean) + " m fits a slide of " + std::to_string(volume) + " m3");
+}
+
+/// Spheres spread over the space, overlapping; out.left_out are those without a site.
+void scatter(const PackingRequest& r, const TriangleTree& walls, Packing& out) {
+  Random random(r.seed);
+  out.volume = space_volume(r);
+  out.diameter = draw_diameters(r, out.volume * (1.0 - r.porosity), random);
+  const double smallest = sizes_of(r).smallest, inset = 0.4 * smallest;
+  const std::size_t wanted = out.diameter.size();
+  if (wanted > 0) out.position = enough_sites(r, walls, out.volume, wanted, inset);
+  require_one(!out.position.empty(), r, out.volume);
+  if (out.position.size() > wanted) keep_random(out.position, wanted, random);
+  out.diameter.resize(out.position.size());
+  out.left_out = wanted - out.position.size();
+  jitter(out.position, walls, 0.25 * smallest, inset, r.dimensions, random);
+}
+
+void set_porosity(Packing& p, int dimensions) {
+  double solid = 0.0;
+  for (const float d : p.diameter) solid += grain_volume(d, dimensions);
+  p.porosity = 1.0 - solid / p.volume;
+}
+
 }  // namespace
 
-Packing pack_spheres(const PackingRequest& r) {
-  Random random(r.seed);
+Packing scatter_spheres(const PackingRequest& r) {
   Packing out;
-  double mean = r.diameter, smallest = r.diameter - 3.0 * r.deviation, largest = r.diameter + 3.0 * r.deviation;
-  if (!r.sieve.empty()) {
-    smallest = largest = mean = r.sieve.front().diameter;
-    for (const auto& c : r.sieve) smallest = std::min(smallest, c.diameter), largest = std::max(largest, c.diameter);
-  }
-  out.volume = space_volume(r);
-  std::vector<float> diameters = draw_diameters(r, out.volume * (1.0 - r.porosity), random);
+  scatter(r, TriangleTree(r.walls), out);
+  set_porosity(out, r.dimensions);
+  return out;
+}
+
+Packing pack_spheres(const PackingRequest& r) {
+  Packing out;
   const TriangleTree walls(r.walls);
-  const double inset = 0.4 * smallest;
-  std::vector<Vec3d> sites;
-  if (!diameters.empty()) sites = enough_sites(r, walls, out.volume, diameters.size(), inset);
-  if (sites.empty()) {
-    throw Error(ErrorKind::input, "no grain of diameter " + std::to_string(mean) + " m fits a slide of " + std::to_string(out.volume) + " m3");
-  }
-  const std::size_t wanted = diameters.size();
-  if (sites.size() > wanted) keep_random(sites, wanted, random);
-  diameters.resize(sites.size());
-  jitter(sites, walls, 0.25 * smallest, inset, r.dimensions, random);
-  PackingState state{std::move(sites), std::move(diameters), r.dimensions};
+  scatter(r, walls, out);
+  const std::size_t wanted = out.position.size() + out.left_out;
+  const double largest = sizes_of(r).largest;
+  PackingState state{std::move(out.position), std::move(out.diameter), r.dimensions};
   out.iterations = relax_overlaps(state, walls, largest);
   drop_misplaced(state, walls, r.contains, largest);
   out.left_out = wanted - state.position.size();
   out.largest_overlap = largest_overlap(state, walls, largest);
-  double solid = 0.0;
-  for (const float d : state.diameter) solid += grain_volume(d, r.dimensions);
-  out.porosity = 1.0 - solid / out.volume;
   out.position = std::move(state.position);
   out.diameter = std::move(state.diameter);
-  if (out.position.empty()) {
-    throw Error(ErrorKind::input, "no grain of diameter " + std::to_string(mean) + " m fits a slide of " + std::to_string(out.volume) + " m3");
-  }
+  require_one(!out.position.empty(), r, out.volume);
+  set_porosity(out, r.dimensions);
   return out;
 }
 

@@ -42,4 +42,7 @@ struct Packing {
 /// Throws Error(input) when not a single grain fits.
 Packing pack_spheres(const PackingRequest& request);
 
+/// As many spheres of the same diameters, spread over the space but not moved apart: what an estimate needs. Throws likewise.
+Packing scatter_spheres(const PackingRequest& request);
+
 }  // namespace gdesp::geometry

@@ -69,7 +69,9 @@ bool touches_wet(const Heightfield& f, int i, int j, double limit) {
   return false;
 }
 
-std::vector<Vec3d> bathymetry_points(const Scene& scene, const std::string& crs) {
+void pass_on(const Raster& raster, Notes& notes) { notes.warnings.insert(notes.warnings.end(), raster.warnings.begin(), raster.warnings.end()); }
+
+std::vector<Vec3d> bathymetry_points(const Scene& scene, const std::string& crs, Notes& notes) {
   const Terrain& t = scene.terrain;
   RasterOptions o;
   o.vertical_scale = t.bathymetry_scale;
@@ -77,13 +79,14 @@ std::vector<Vec3d> bathymetry_points(const Scene& scene, const std::string& crs)
   o.crs = t.bathymetry_crs;
   o.target_crs = crs;
   if (!is_raster(t.bathymetry)) return read_points(t.bathymetry, o);
-  const Heightfield f = read_raster(t.bathymetry, o).field;
-  return to_mesh(f).vertex;
+  const Raster raster = read_raster(t.bathymetry, o);
+  pass_on(raster, notes);
+  return to_mesh(raster.field).vertex;
 }
 
 /// Lake bed from the points, tied to the dry shore: only nodes at or below the water are changed.
 void burn_bathymetry(Heightfield& f, const Scene& scene, const std::string& crs, Notes& notes) {
-  std::vector<Vec3d> points = bathymetry_points(scene, crs);
+  std::vector<Vec3d> points = bathymetry_points(scene, crs, notes);
   const double limit = wet_limit(scene);
   const std::size_t given = points.size();
   Box lake = empty_box();
@@ -176,6 +179,7 @@ TerrainSheet load_sheet(const std::string& path, const Terrain& t, const std::st
   if (is_mesh_name(path)) return from_meshes({path}, t, notes);
   if (!is_raster(path)) return from_points({path}, t, target_crs);
   const Raster raster = read_raster(path, raster_options(t, target_crs));
+  pass_on(raster, notes);
   TerrainSheet sheet;
   sheet.mesh = to_mesh(raster.field);
   sheet.spacing = std::sqrt(raster.field.dx * raster.field.dy);
@@ -195,6 +199,7 @@ TerrainSheet load_terrain(const Scene& scene, Notes& notes) {
   }
   if (rasters == t.files.size()) {
     Raster raster = read_tiles(t.files, raster_options(t, ""));
+    pass_on(raster, notes);
     if (const std::size_t n = fill_small_gaps(raster.field)) notes.done.push_back(t.files.front() + ": " + std::to_string(n) + " nodes without data, enclosed and few, filled from their rim");
     if (!t.bathymetry.empty()) burn_bathymetry(raster.field, scene, raster.crs, notes);
     sheet.mesh = scene.domain ? to_mesh(raster.field, &*scene.domain) : to_mesh(raster.field);

@@ -1,42 +1,50 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// --explain: what would be built, and what running it would take.
-#include <cmath>
-#include <cstdio>
+// --explain: what would be built, and what running it would take, by the estimate of gdesp-run itself.
 #include <iostream>
 
-#include "geometry/case_estimate.hpp"
+#include "exec/backend.hpp"
+#include "geometry/case_builder.hpp"
 #include "options.hpp"
+#include "scene_economy.hpp"
 
 namespace gdesp::tool {
 namespace {
 
-std::string text_of(const char* format, double value) {
-  char text[80];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
+/// Bytes on disk, as written: arrays of 32-bit numbers in base64.
+double case_bytes(const Case& c) {
+  const auto n = [](const auto& list) { return static_cast<double>(list.size()); };
+  return 4.0 / 3.0 * (24.0 * n(c.fluid.position) + 44.0 * n(c.boundary.position) + 48.0 * n(c.grains.position) + 28.0 * n(c.walls.triangle));
 }
 
-void print_text(const geometry::CaseEstimate& e, const Scene& scene) {
-  std::cout << (scene.title.empty() ? scene.path : scene.title) << "\n";
-  std::cout << "  fluid particles     " << e.fluid << "\n  wall particles      " << e.boundary << "\n  grains              " << e.grains
-            << "\n  wall triangles      " << e.triangles << "\n  bodies              " << e.bodies << "\n";
-  std::cout << "  domain              " << text_of("%.6g", e.size.x) << " x " << text_of("%.6g", e.size.y) << " x " << text_of("%.6g", e.size.z) << " m\n";
-  std::cout << "  case on disk        " << text_of("%.3g MB", e.disk_bytes / 1e6) << "\n  memory of a run     " << text_of("%.3g MB", e.memory_bytes / 1e6) << "\n";
-  std::cout << "  speed of sound      " << text_of("%.4g m/s", e.sound_speed) << " (largest speed expected " << text_of("%.4g m/s)", e.largest_speed) << "\n";
-  std::cout << "  fluid step          " << text_of("%.3g s", e.fluid_step) << "\n";
-  if (e.grains > 0) std::cout << "  grain step          " << text_of("%.3g s", e.grain_step) << "\n";
-  std::cout << "  fluid steps to " << text_of("%.4g s", scene.time.end) << "  " << text_of("%.3g", e.fluid_steps) << "\n";
-  std::cout << "  cost                " << text_of("%.3g", e.particle_steps) << " particle steps; at 4e6 a second (two cores) " << text_of("%.3g s", e.particle_steps / 4e6) << "\n";
-  for (const auto& line : e.models) std::cout << "  " << line << "\n";
-  for (const auto& note : e.notes.done) std::cout << "  note: " << note << "\n";
-  for (const auto& warning : e.notes.warnings) std::cout << "  warning: " << warning << "\n";
+void print_counts(const Case& c) {
+  const Vec3d size = c.domain.upper - c.domain.lower;
+  std::cout << (c.scene.title.empty() ? c.scene.path : c.scene.title) << "\nfluid particles   " << c.fluid.position.size() << "\nwall particles    "
+            << c.boundary.position.size() << "\ngrains            " << c.grains.position.size() << "\nwall triangles    " << c.walls.triangle.size()
+            << "\nbodies            " << c.bodies.size() << "\ndomain            " << number_text(size.x, 6) << " x " << number_text(size.y, 6) << " x "
+            << number_text(size.z, 6) << " m\ncase on disk      about " << memory_text(case_bytes(c)) << "\n";
+}
+
+/// What gdesp-run says of the case on this machine's processor; nothing where nothing moves.
+void print_run(Case& c) {
+  if (c.fluid.position.empty() && c.grains.position.empty()) return;
+  const Scene scene = c.scene;
+  const ExpectedSpeed expected = expected_speed(c);
+  const SimulationInput input = case_to_input(c);
+  SceneSummary summary = summarize(scene, input, expected, "cpu", exec::set_threads(0));
+  describe_economies(summary, scene, input, expected, measure_step_costs(input, "cpu"));
+  for (const auto& line : summary.lines) std::cout << line << "\n";
 }
 
 }  // namespace
 
 int explain(const MeshOptions& o) {
-  const Scene scene = read_scene(o.scene, o.overrides);
-  print_text(geometry::estimate_case(scene), scene);
+  geometry::BuildReport report;
+  Case built = geometry::build_case(read_scene(o.scene, o.overrides), report, {}, {}, geometry::BuildScope::counts_only);
+  print_counts(built);
+  for (const auto& note : report.notes.done) std::cout << "note: " << note << "\n";
+  for (const auto& warning : report.notes.warnings) std::cout << "warning: " << warning << "\n";
+  std::cout << "\nif run (gdesp-run):\n";
+  print_run(built);
   std::cout << std::flush;
   return 0;
 }

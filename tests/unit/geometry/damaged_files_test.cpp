@@ -56,5 +56,12 @@ TEST(DamagedFiles, HugeCountsDoNotAskForMemory) {
   judge(folder, "a.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 double\n0 0 0 1 0 0 0 1 0\nPOLYGONS 1 4\n3 0 1 999999\n");
 }
 
+TEST(DamagedFiles, BinaryThatNobodyKnowsIsNotTakenForPoints) {
+  const Folder folder;
+  const FileReport r = check_file(folder.write("cut.tif", std::string("II*") + '\0' + " and then nothing\n"));
+  EXPECT_EQ(r.verdict, MeshVerdict::refused);
+  EXPECT_NE(r.refusal.find("damaged or cut short"), std::string::npos) << r.refusal;
+}
+
 }  // namespace
 }  // namespace gdesp::geometry

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One lake in every format a terrain comes in: the water's volume must be the same, and that of the formula.
+#include <cpl_error.h>
 #include <gdal_priv.h>
 #include <gmsh.h>
 #include <ogr_spatialref.h>
 
 #include "geometry/case_builder.hpp"
 #include "geometry/file_check.hpp"
+#include "geometry/gdal_support.hpp"
 #include "geometry/mesh_reader.hpp"
 #include "support.hpp"
 
@@ -199,6 +201,17 @@ TEST(InputKinds, GeoFilesMayDescribeShapesOnly) {
     EXPECT_FALSE(std::filesystem::exists(target));
   }
   EXPECT_MENTIONS(input_error([&] { read_mesh(folder.write("b.geo", attacks[0]), o); }), "b.geo:3:");
+}
+
+TEST(InputKinds, WhatGdalWarnsOfIsToldOnceWithTheFile) {
+  const QuietGdal quiet;
+  EXPECT_TRUE(quiet.warnings("a.tif").empty());
+  EXPECT_EQ(quiet.message(), "no reason given");
+  CPLError(CE_Warning, CPLE_AppDefined, "odd tag");
+  CPLError(CE_Warning, CPLE_AppDefined, "another");
+  ASSERT_EQ(quiet.warnings("a.tif").size(), 1u);
+  EXPECT_EQ(quiet.warnings("a.tif")[0], "a.tif: GDAL warns: odd tag (and 1 more)");
+  EXPECT_EQ(quiet.message(), "another");
 }
 
 }  // namespace
