@@ -106,8 +106,8 @@ void put(std::ostream& out, const T& value) {
 template <class T>
 T get(std::istream& in) {
   static_assert(std::is_trivially_copyable_v<T>);
-  T value;
-  in.read(reinterpret_cast<char*>(&value), sizeof value);
+  T value{};
+  if (!in.read(reinterpret_cast<char*>(&value), sizeof value)) throw Error(ErrorKind::input, "a checkpoint ends before what it should hold");
   return value;
 }
 
@@ -126,14 +126,20 @@ void put_good_states(std::ostream& out, const std::deque<GoodState>& good) {
   }
 }
 
-/// The checksum has been found right: counts and sizes are what was written.
+/// The checksum has been found right; a file made to fit it may still state any sizes.
+std::size_t get_size(std::istream& in, std::size_t most) {
+  const auto size = get<std::uint64_t>(in);
+  if (size > most) throw Error(ErrorKind::input, "a checkpoint states " + std::to_string(size) + " where at most " + std::to_string(most) + " can be");
+  return static_cast<std::size_t>(size);
+}
+
 std::deque<GoodState> get_good_states(std::istream& in) {
-  std::deque<GoodState> good(static_cast<std::size_t>(get<std::uint64_t>(in)));
+  std::deque<GoodState> good(get_size(in, Recovery::most_states));
   for (GoodState& state : good) {
     state.guard = get<Guard>(in);
     state.step = get<std::int64_t>(in);
     state.time = get<double>(in);
-    state.bytes.resize(static_cast<std::size_t>(get<std::uint64_t>(in)));
+    state.bytes.resize(get_size(in, CheckpointFiles::largest_good_states));
     in.read(state.bytes.data(), static_cast<std::streamsize>(state.bytes.size()));
   }
   return good;

@@ -15,8 +15,6 @@
 namespace gdesp::tool {
 namespace {
 
-constexpr std::size_t most_states = 2;
-
 /// A stream into a vector, in large pieces.
 class MemoryOutput : public std::streambuf {
  public:

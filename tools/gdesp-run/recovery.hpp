@@ -36,6 +36,8 @@ class Recovery {
   static constexpr int most_recoveries = 12;      ///< in one run
   static constexpr double sound_factor = 1.5;     ///< each try
 
+  static constexpr std::size_t most_states = 2;   ///< good, held at a time
+
   /// `memory`: bytes that the states may take; 0: none are kept.
   explicit Recovery(double memory) : memory_(memory) {}
 

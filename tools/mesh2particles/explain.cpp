@@ -2,10 +2,9 @@
 // --explain: what would be built, and what running it would take, by the estimate of gdesp-run itself.
 #include <iostream>
 
-#include "exec/backend.hpp"
+#include "case_estimate.hpp"
 #include "geometry/case_builder.hpp"
 #include "options.hpp"
-#include "scene_economy.hpp"
 
 namespace gdesp::tool {
 namespace {
@@ -24,17 +23,6 @@ void print_counts(const Case& c) {
             << number_text(size.z, 6) << " m\ncase on disk      about " << memory_text(case_bytes(c)) << "\n";
 }
 
-/// What gdesp-run says of the case on this machine's processor; nothing where nothing moves.
-void print_run(Case& c) {
-  if (c.fluid.position.empty() && c.grains.position.empty()) return;
-  const Scene scene = c.scene;
-  const ExpectedSpeed expected = expected_speed(c);
-  const SimulationInput input = case_to_input(c);
-  SceneSummary summary = summarize(scene, input, expected, "cpu", exec::set_threads(0));
-  describe_economies(summary, scene, input, expected, measure_step_costs(input, "cpu"));
-  for (const auto& line : summary.lines) std::cout << line << "\n";
-}
-
 }  // namespace
 
 int explain(const MeshOptions& o) {
@@ -43,8 +31,10 @@ int explain(const MeshOptions& o) {
   print_counts(built);
   for (const auto& note : report.notes.done) std::cout << "note: " << note << "\n";
   for (const auto& warning : report.notes.warnings) std::cout << "warning: " << warning << "\n";
-  std::cout << "\nif run (gdesp-run):\n";
-  print_run(built);
+  if (!built.fluid.position.empty() || !built.grains.position.empty()) {
+    std::cout << "\nif run (gdesp-run):\n";
+    for (const auto& line : estimate_here(built).lines) std::cout << line << "\n";
+  }
   std::cout << std::flush;
   return 0;
 }
