@@ -19,7 +19,7 @@ constexpr std::int32_t farthest = 1 << 19;  // tile
 using Index = Vec3<std::int32_t>;
 using Values = std::array<float, voxels>;
 
-std::size_t place(int x, int y, int z) { return static_cast<std::size_t>((x * edge + y) * edge + z); }
+std::size_t place(int x, int y, int z) { return (static_cast<std::size_t>(x) * edge + y) * edge + z; }
 
 struct Tile {
   Index at;                        // in tiles
@@ -64,7 +64,7 @@ class TileSet {
  private:
   static std::int32_t tile_of(double x) { return static_cast<std::int32_t>(std::floor((std::round(x)) / edge)); }
   static std::uint64_t key(const Index& at) {
-    const auto part = [](std::int32_t i) { return static_cast<std::uint64_t>(i + 2 * farthest); };
+    const auto part = [](std::int32_t i) { return static_cast<std::uint64_t>(std::int64_t{i} + 2 * farthest); };
     return part(at.x) << 42 | part(at.y) << 21 | part(at.z);
   }
   std::size_t find_or_add(const Index& at) {
