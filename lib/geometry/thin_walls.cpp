@@ -17,7 +17,7 @@ constexpr int open_space = 2;          // dp without wall or water: the space be
 constexpr std::size_t looks = 24;      // places looked at closely
 
 /// A wall that is thin on the lattice.
-struct Suspect { int i, j; double z; int columns; };
+struct Suspect { int i, j; Interval open; int columns; };   // open: heights of the space behind
 
 using Pieces = std::vector<Interval>;
 
@@ -95,7 +95,7 @@ class Search {
       if (n > 1) {
         for (const auto& hole : common(front, open(c))) {
           if (hole.upper - hole.lower < 0.5 * dp_) continue;
-          suspects_.push_back({i, j, 0.5 * (hole.lower + hole.upper), n - 1});
+          suspects_.push_back({i, j, hole, n - 1});
           return;
         }
       }
@@ -133,20 +133,25 @@ class Search {
     const ColumnGrid fine{x - half * step, flat ? 0.0 : y - half * step, step, 2 * half + 1, flat ? 1 : 2 * half + 1};
     const ColumnIntervals solid = static_solid(parts_, fine);
     const int rays = flat ? 2 : directions;
-    for (int d = 0; d < rays; ++d) {
-      const double u = std::cos(2.0 * pi * d / rays), v = std::sin(2.0 * pi * d / rays);
-      int entered = 0, left = 0;   // samples; the wall lies between them
-      for (int n = 1; n < half; ++n) {
-        const int a = half + static_cast<int>(std::lround(n * u)), b = flat ? 0 : half + static_cast<int>(std::lround(n * v));
-        if (solid.contains(fine.index(a, b), at.z)) {
-          if (entered == 0) entered = n;
-          left = n + 1;
-        } else if (entered > 0 && is_near_water(fine.x(a), fine.y(b), at.z, 0)) {
-          entered = 0;   // a corner of the water's own side
-        } else if (entered > 0 && n - left >= open_space * finer) {
-          if (!is_near_water(fine.x(a), fine.y(b), at.z, 1)) offer({x, y, at.z}, (left - entered) * step);
-          break;
-        }
+    for (const double share : {0.1, 0.5, 0.9}) {
+      const double z = at.open.lower + share * (at.open.upper - at.open.lower);
+      for (int d = 0; d < rays; ++d) look_through(fine, solid, half, 2.0 * pi * d / rays, {x, y, z});
+    }
+  }
+
+  /// Along a ray from the middle of the fine columns: the wall lies between the samples where it is entered and left for good.
+  void look_through(const ColumnGrid& fine, const ColumnIntervals& solid, int half, double angle, const Vec3d& from) {
+    int entered = 0, left = 0;
+    for (int n = 1; n < half; ++n) {
+      const int a = half + static_cast<int>(std::lround(n * std::cos(angle))), b = fine.ny == 1 ? 0 : half + static_cast<int>(std::lround(n * std::sin(angle)));
+      if (solid.contains(fine.index(a, b), from.z)) {
+        if (entered == 0) entered = n;
+        left = n + 1;
+      } else if (entered > 0 && is_near_water(fine.x(a), fine.y(b), from.z, 0)) {
+        entered = 0;   // a corner of the water's own side
+      } else if (entered > 0 && n - left >= open_space * finer) {
+        if (!is_near_water(fine.x(a), fine.y(b), from.z, 1)) offer(from, (left - entered) * fine.spacing);
+        return;
       }
     }
   }
