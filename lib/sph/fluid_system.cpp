@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "exec/permute.hpp"
+#include "sph/lattice_count.hpp"
 #include "sph/tait.hpp"
 
 namespace gdesp::sph {
@@ -35,13 +36,14 @@ struct WrapPosition {
 };
 
 struct KeepFilling {
+  ShareOfCount share_of;
   const float* density;
-  const float* share;
+  const float* count;
   float* filling;
   GDESP_HD void operator()(Index s) const {
     filling[2 * static_cast<std::int64_t>(s)] = density[s];
-    const float* q = share + 8 * static_cast<std::int64_t>(s / exec::cluster_size) + s % exec::cluster_size;
-    filling[2 * static_cast<std::int64_t>(s) + 1] = q[0] / real::max(1.0f - q[4], 0.1f);   // of the room that walls leave
+    const float* q = count + 8 * static_cast<std::int64_t>(s / exec::cluster_size) + s % exec::cluster_size;
+    filling[2 * static_cast<std::int64_t>(s) + 1] = share_of(q[0] / real::max(1.0f - q[4], 0.1f));   // of the room that walls leave
   }
 };
 // Water at its true density in pores: the masses are what the pores hold, over the particles that the table has there (all
@@ -307,11 +309,12 @@ void FluidSystem<Exec>::reset_coupling() {
 template <class Exec>
 void FluidSystem<Exec>::fill_pores(bool first) {
   if (first) {
-    Array<float, Exec> share(exec_);
-    share.resize_discard(2 * static_cast<std::size_t>(slots()));
-    lattice_share_pass(share.data());
+    Array<float, Exec> count(exec_);
+    count.resize_discard(2 * static_cast<std::size_t>(slots()));
+    lattice_share_pass(count.data());
     filling_.resize_discard(2 * static_cast<std::size_t>(slots()));
-    exec::parallel_for(exec_, "sph::keep_filling", slots(), KeepFilling{density_.data(), share.data(), filling_.data()});
+    const ShareOfCount share_of(parameters_.h / parameters_.dp, parameters_.dimensions);
+    exec::parallel_for(exec_, "sph::keep_filling", slots(), KeepFilling{share_of, density_.data(), count.data(), filling_.data()});
   }
   exec::parallel_for(exec_, "sph::fill_pores", slots(),
                      FillPores{id_.data(), porosity_.data(), filling_.data(), density_.data(), mass_share_.data()});

@@ -22,6 +22,7 @@
 #include "sph/wall_extrapolation.hpp"
 #include "sph/fluid_views.hpp"
 #include "sph/wall_guard.hpp"
+#include "sph/lattice_count.hpp"
 #include "sph/wendland_c2.hpp"
 
 namespace gdesp::sph {
@@ -58,6 +59,22 @@ TEST(WendlandC2, lattice_moment_matches_hand_values) {
   EXPECT_NEAR(lattice_gradient_moment(1.3, 2), 0.973921, 1e-5);
   EXPECT_NEAR(lattice_gradient_moment(1.3, 3), 0.978896, 1e-5);
   EXPECT_NEAR(lattice_gradient_moment(6.0, 3), 1.0, 1e-4);
+}
+
+// A kernel sum on a particle counts the particle itself: 7/(4 pi 1.5^2) of a lattice at least. Values by hand (sum over a lattice).
+TEST(LatticeCount, TellsTheShareOfThinnedLattices) {
+  EXPECT_NEAR(lattice_count(1.5, 2, 1.0), 1.0051, 1e-4);
+  EXPECT_NEAR(lattice_count(1.5, 2, 0.4), 0.4 * 1.0454, 1e-4);
+  EXPECT_NEAR(lattice_count(1.5, 2, 0.2), 0.2 * 1.3208, 1e-4);
+  EXPECT_NEAR(lattice_count(1.5, 3, 0.4), 0.4 * 1.0242, 1e-4);
+  for (const int dimensions : {2, 3}) {
+    const ShareOfCount share(1.5, dimensions);
+    for (const double s : {0.25, 0.33, 0.4, 0.6, 0.85, 1.0}) {
+      EXPECT_NEAR(static_cast<double>(share(static_cast<float>(lattice_count(1.5, dimensions, s)))), s, 0.005 * s) << dimensions;
+    }
+    EXPECT_EQ(share(0.01f), 0.0f);
+    EXPECT_NEAR(share(1.2f * static_cast<float>(lattice_count(1.5, dimensions, 1.0))), 1.2f, 1e-5f);
+  }
 }
 
 TEST(Tait, matches_the_power_law_and_its_inverse) {
