@@ -62,6 +62,7 @@ Push push_on(std::size_t i, const PackingState& s, const Vicinity& v, const Tria
     out.worst = std::max(out.worst, (depth - (inflation - 1.0) * radius) / s.diameter[i]);
     out.sum += push * wall_weight;
   }
+  if (s.dimensions == 2) out.sum.y = 0.0;
   return out;
 }
 
@@ -160,7 +161,6 @@ class Relaxation {
       m += push_[i] * step;
       const double length = norm(m), limit = longest_step * s_.diameter[i];
       if (length > limit) m = m * (limit / length);
-      if (s_.dimensions == 2) m.y = 0.0;
       if (dot(push_[i], push_[i]) == 0.0 && length < still * s_.diameter[i]) m = {};
       motion_[i] = m;
       if (m == Vec3d{}) continue;

@@ -149,18 +149,30 @@ void set_porosity(Packing& p, int dimensions) {
   p.porosity = 1.0 - solid / p.volume;
 }
 
+/// In the plane the faces towards y are no walls: they may be nearer than a disc's radius.
+TriangleMesh bounding_walls(const PackingRequest& r) {
+  TriangleMesh walls = r.walls;
+  if (r.dimensions != 2) return walls;
+  std::erase_if(walls.triangle, [&](const auto& t) {
+    const Vec3d a = walls.vertex[static_cast<std::size_t>(t.x)];
+    const Vec3d n = cross(walls.vertex[static_cast<std::size_t>(t.y)] - a, walls.vertex[static_cast<std::size_t>(t.z)] - a);
+    return std::abs(n.y) > 0.5 * norm(n);
+  });
+  return walls;
+}
+
 }  // namespace
 
 Packing scatter_spheres(const PackingRequest& r) {
   Packing out;
-  scatter(r, TriangleTree(r.walls), out);
+  scatter(r, TriangleTree(bounding_walls(r)), out);
   set_porosity(out, r.dimensions);
   return out;
 }
 
 Packing pack_spheres(const PackingRequest& r) {
   Packing out;
-  const TriangleTree walls(r.walls);
+  const TriangleTree walls(bounding_walls(r));
   scatter(r, walls, out);
   const std::size_t wanted = out.position.size() + out.left_out;
   const double largest = sizes_of(r).largest;

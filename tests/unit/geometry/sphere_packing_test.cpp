@@ -181,5 +181,16 @@ TEST(SpherePacking, NothingFits) {
   EXPECT_MENTIONS(testing::input_error([] { pack_spheres(box_request({{0, 0, 0}, {1, 1, 1}}, 3.0, 0.4)); }), "no grain");
 }
 
+// The faces towards y of a plane scene may be nearer than the radius: they bound nothing there.
+TEST(SpherePacking, DiscsStayInTheirPlaneBetweenCloseFaces) {
+  PackingRequest r = box_request({{0, -0.005, 0}, {0.5, 0.005, 0.5}}, 0.03, 0.25);
+  r.dimensions = 2;
+  const Packing p = pack_spheres(r);
+  EXPECT_NEAR(p.porosity, 0.25, 0.005);
+  EXPECT_LT(worst_overlap(p), bound);
+  EXPECT_EQ(p.left_out, 0u);
+  for (const Vec3d& x : p.position) EXPECT_EQ(x.y, 0.0);
+}
+
 }  // namespace
 }  // namespace gdesp::geometry
