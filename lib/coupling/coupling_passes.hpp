@@ -258,24 +258,24 @@ struct ForcesOnGrains {
   const float* real_diameter;  // per group; null: their own
   Drag law;
   bool discs;
-  float density, viscosity, added_mass_factor, dt;
+  float density, viscosity, added_mass_factor;
   Vec3f gravity;
   float* porosity;
   float* drag_coefficient;
+  float* fluid_mass;
   float* added_mass;
   Vec3f* fluid_velocity;
+  Vec3f* fluid_acceleration;
   Vec3f* other_force;
-  Vec3f* inertia_force;
 
   GDESP_HD void operator()(Index s) const {
     const std::int64_t c = s / exec::cluster_size, lane = s % exec::cluster_size;
     const float* q = sums + sum_rows * c + lane;
     float* r = record + record_offset(static_cast<Index>(c)) + lane;
     r[row_volume] = r[row_offset] = 0.0f;
-    drag_coefficient[s] = 0.0f;
-    added_mass[s] = 0.0f;
+    drag_coefficient[s] = fluid_mass[s] = added_mass[s] = 0.0f;
     porosity[s] = 1.0f;
-    fluid_velocity[s] = other_force[s] = inertia_force[s] = {};
+    fluid_velocity[s] = fluid_acceleration[s] = other_force[s] = {};
     const float N = q[sum_water], wet = immersion(N);
     if (id[s] == no_particle || wet <= 0.0f) return;
     const float inverse = 1.0f / N;
@@ -289,7 +289,7 @@ struct ForcesOnGrains {
     const DragState state{eps, norm(u - v), given > 0.0f ? given : 2.0f * R, density, viscosity};
     const float K = law == Drag::ergun_wen_yu ? ergun_wen_yu_drag(state) : di_felice_drag(state);
     // Fluid that belongs to the grain: less of it where the room around is only partly wet.
-    const float fluid_mass = density * V * eps * real::min(N, 1.0f) / real::max(1.0f - eps, 1.0e-3f);
+    fluid_mass[s] = density * V * eps * real::min(N, 1.0f) / real::max(1.0f - eps, 1.0e-3f);
     // Faded out towards a packed bed: buoyancy and added mass together react with (1 - eps)(1 + C_m) of the water's own
     // pressure acceleration, which explicit coupling bears only below one.
     const float dilute = real::min(real::max((eps - 0.6f) / 0.3f, 0.0f), 1.0f);
@@ -298,13 +298,10 @@ struct ForcesOnGrains {
     r[row_offset] = push.offset;
     porosity[s] = eps;
     fluid_velocity[s] = u;
-    // A held grain is as heavy as the earth.
-    const float mass = grain[s].mobility > 0.0f ? grain[s].mass + m_added : 1.0e5f * (grain[s].mass + fluid_mass);
-    drag_coefficient[s] = implicit_drag(wet * K * V, mass, fluid_mass, dt);
+    drag_coefficient[s] = wet * K * V;
     added_mass[s] = m_added;
-    // The added mass's share of the fluid's own acceleration.
-    inertia_force[s] = (push.gradient * (-1.0f / density) + gravity) * m_added;
-    other_force[s] = push.force + inertia_force[s];
+    fluid_acceleration[s] = push.gradient * (-1.0f / density) + gravity;
+    other_force[s] = push.force + m_added * fluid_acceleration[s];
   }
 };
 
@@ -350,7 +347,7 @@ struct PackReaction {
   const std::uint32_t* id;
   const Vec3f* velocity;
   const Vec3f* velocity_before;
-  const Vec3f* inertia_force;
+  const Vec3f* fluid_acceleration;
   const float* added_mass;
   const Vec3d* drag_impulse;
   const float* sums;
@@ -362,8 +359,8 @@ struct PackReaction {
     if (id[s] == no_particle || r[row_volume] <= 0.0f) return;   // dry
     const float N = sums[sum_rows * c + lane + sum_water];
     const Vec3f change = velocity[s] - velocity_before[s];
-    const Vec3f F = inertia_force[s] * kick_share + static_cast<Vec3f>(drag_impulse[s] * static_cast<double>(inverse_dt)) -
-                    change * (added_mass[s] * inverse_dt);
+    const Vec3f F = fluid_acceleration[s] * (added_mass[s] * kick_share) +
+                    static_cast<Vec3f>(drag_impulse[s] * static_cast<double>(inverse_dt)) - change * (added_mass[s] * inverse_dt);
     r[row_force] = F.x / N;
     r[row_force + 4] = F.y / N;
     r[row_force + 8] = F.z / N;

@@ -14,12 +14,7 @@
 //   C_d = (0.63 + 4.8/sqrt(Re))^2, xi = 3.7 - 0.65 exp(-(1.5 - log10 Re)^2/2).
 //   Source: Di Felice (1994), Int. J. Multiphase Flow 20, 153, doi:10.1016/0301-9322(94)90011-6; drag coefficient of
 //   Dallavalle (1948). Coded with |u_s| C_d = (mu/(rho d)) (0.63 sqrt(Re) + 4.8)^2: finite at rest.
-// @eq coupling.drag.implicit
-//   A grain and the fluid around it (mass m_f = eps rho V/(1 - eps)) relax towards each other:
-//   J = mu_r w (1 - exp(-k dt/mu_r)), w = u - v, mu_r = m m_f/(m + m_f), k the coefficient.
-//   The coefficient that gives the same impulse with u held is k' = -(m/dt) ln(1 - (mu_r/m)(1 - exp(-k dt/mu_r)));
-//   k' -> k for small dt, and no step is too long. J [N s]; k, k' [kg/s]. Source: own derivation, the exact solution of the
-//   two-body relaxation.
+// The relaxation itself, implicit in each sub-step of the grains: dem.motion.drag.
 #pragma once
 
 #include <cmath>
@@ -63,13 +58,6 @@ GDESP_HD inline float di_felice_drag(const DragState& s) {
   const float xi = 3.7f - 0.65f * ::expf(-0.5f * away * away);
   // Force / (u - v) / (pi d^3 / 6).
   return 0.75f * cd_speed * s.density * ::powf(s.porosity, 1.0f - xi) / d;
-}
-
-/// k' of the implicit relaxation: `coefficient` kg/s, masses kg, dt s.
-GDESP_HD inline float implicit_drag(float coefficient, float grain_mass, float fluid_mass, float dt) {
-  const float reduced = grain_mass * fluid_mass / (grain_mass + fluid_mass);
-  const float share = reduced / grain_mass * -::expm1f(-coefficient * dt / reduced);
-  return -grain_mass / dt * ::log1pf(-share);
 }
 
 }  // namespace gdesp::coupling

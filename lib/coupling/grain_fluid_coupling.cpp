@@ -17,8 +17,8 @@ template <class Exec>
 GrainFluidCoupling<Exec>::GrainFluidCoupling(const Exec& exec, const Domain& domain, const CouplingLaw& law)
     : exec_(exec), domain_(domain), law_(law), grain_fluid_(exec), fluid_grain_(exec), fluid_wall_(exec),
       real_diameter_(exec), record_(exec), sums_(exec), water_(exec), 
-      velocity_before_(exec), porosity_(exec), drag_coefficient_(exec), added_mass_(exec), fluid_velocity_(exec),
-      other_force_(exec), inertia_force_(exec), reaction_(exec) {
+      velocity_before_(exec), porosity_(exec), drag_coefficient_(exec), fluid_mass_(exec), added_mass_(exec),
+      fluid_velocity_(exec), fluid_acceleration_(exec), other_force_(exec), reaction_(exec) {
   real_diameter_.assign(law.real_diameter);
 }
 
@@ -36,11 +36,11 @@ void GrainFluidCoupling<Exec>::rebuild(const dem::GrainSystem<Exec>& grains, con
   fluid_slots_ = fluid.slots();
   record_.resize_discard(n * 8);
   sums_.resize_discard(n * 12);
-  for (auto* array : {&porosity_, &drag_coefficient_, &added_mass_}) array->resize_discard(n);
-  for (auto* array : {&velocity_before_, &fluid_velocity_, &other_force_, &inertia_force_}) array->resize_discard(n);
+  for (auto* array : {&porosity_, &drag_coefficient_, &fluid_mass_, &added_mass_}) array->resize_discard(n);
+  for (auto* array : {&velocity_before_, &fluid_velocity_, &fluid_acceleration_, &other_force_}) array->resize_discard(n);
   reaction_.resize_discard(water_clusters * 12);
   water_.resize_discard(water_clusters * water_rows);
-    place(grains, 0.0);
+  place(grains, 0.0);
   const auto cutoff = static_cast<float>(2.0 * law_.smoothing_length + skin);
   const CellGridView fluid_grid = fluid.set().view(), grain_grid = grains.set().view(), wall_grid = fluid.wall_set().view();
   grain_fluid_.build(grain_grid, record_.data(), fluid_grid, fluid.records(), cutoff);
@@ -102,7 +102,7 @@ void GrainFluidCoupling<Exec>::start_porosity(const dem::GrainSystem<Exec>& grai
 }
 
 template <class Exec>
-void GrainFluidCoupling<Exec>::gather_forces(dem::GrainSystem<Exec>& grains, sph::FluidSystem<Exec>& fluid, float dt) {
+void GrainFluidCoupling<Exec>::gather_forces(dem::GrainSystem<Exec>& grains, sph::FluidSystem<Exec>& fluid) {
   const Vec3f rho_g = static_cast<Vec3f>(law_.gravity * law_.fluid_density);
   pack_water(fluid);
   exec::pair_pass(exec_, "coupling::gather", grains.set().clusters(),
@@ -113,22 +113,23 @@ void GrainFluidCoupling<Exec>::gather_forces(dem::GrainSystem<Exec>& grains, sph
                                     real_diameter_.empty() ? nullptr : real_diameter_.data(), law_.drag,
                                     law_.dimensions == 2, static_cast<float>(law_.fluid_density),
                                     static_cast<float>(law_.dynamic_viscosity), static_cast<float>(law_.added_mass),
-                                    dt, static_cast<Vec3f>(law_.gravity), porosity_.data(),
-                                    drag_coefficient_.data(), added_mass_.data(), fluid_velocity_.data(),
-                                    other_force_.data(), inertia_force_.data()});
+                                    static_cast<Vec3f>(law_.gravity), porosity_.data(), drag_coefficient_.data(),
+                                    fluid_mass_.data(), added_mass_.data(), fluid_velocity_.data(),
+                                    fluid_acceleration_.data(), other_force_.data()});
   const double c = fluid.parameters().sound_speed;
   exec::pair_pass(exec_, "coupling::mixture", fluid.set().clusters(),
                   MixturePressure{kernel_of(law_), rho_g, static_cast<float>(1.0 / (law_.fluid_density * c * c)),
                                   fluid_grain_.view(), record_.data(), water_.data(), fluid.porosity(),
                                   fluid.parameters().paper_form ? fluid.densities() : nullptr, fluid.mixture_records()});
-  grains.set_fluid(drag_coefficient_.data(), fluid_velocity_.data(), other_force_.data(), added_mass_.data());
+  grains.set_fluid({drag_coefficient_.data(), fluid_mass_.data(), added_mass_.data(), other_force_.data(),
+                    fluid_acceleration_.data(), fluid_velocity_.data()});
   grains.clear_drag_impulse();
 }
 
 template <class Exec>
 void GrainFluidCoupling<Exec>::react(const dem::GrainSystem<Exec>& grains, sph::FluidSystem<Exec>& fluid, float dt) {
   exec::parallel_for(exec_, "coupling::pack_reaction", grains.slots(),
-                     PackReaction{grains.ids(), grains.velocities(), velocity_before_.data(), inertia_force_.data(),
+                     PackReaction{grains.ids(), grains.velocities(), velocity_before_.data(), fluid_acceleration_.data(),
                                   added_mass_.data(), grains.drag_impulse(), sums_.data(), 1.0f / dt,
                                   static_cast<float>(grains.kicked()) / dt, record_.data()});
   exec::pair_pass(exec_, "coupling::reaction", fluid.set().clusters(),

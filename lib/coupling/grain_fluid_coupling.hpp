@@ -58,9 +58,8 @@ class GrainFluidCoupling {
   void update_porosity(sph::FluidSystem<Exec>& fluid, Index grain_clusters);
   /// At the start: porosity, and water at its true density in the pores. Room and porosity depend on each other.
   void start_porosity(const dem::GrainSystem<Exec>& grains, sph::FluidSystem<Exec>& fluid);
-  /// From the fluid's records: drag coefficient, fluid velocity, other force and added mass of the grains for a step dt
-  /// (s). Leaves the mixture pressure in the records, for the fluid's momentum, which is next.
-  void gather_forces(dem::GrainSystem<Exec>& grains, sph::FluidSystem<Exec>& fluid, float dt);
+  /// From the fluid's records: what it asks of the grains for a step. Leaves the mixture pressure in the records, for the fluid's momentum, which is next.
+  void gather_forces(dem::GrainSystem<Exec>& grains, sph::FluidSystem<Exec>& fluid);
   /// The reaction to what the grains took since gather_forces: external acceleration of the fluid.
   void react(const dem::GrainSystem<Exec>& grains, sph::FluidSystem<Exec>& fluid, float dt);
 
@@ -72,7 +71,8 @@ class GrainFluidCoupling {
   template <class Archive>
   void archive(Archive& a) {
     a(grain_fluid_, fluid_grain_, fluid_wall_, fluid_slots_, grain_slots_, record_, sums_, water_,
-      velocity_before_, porosity_, drag_coefficient_, added_mass_, fluid_velocity_, other_force_, inertia_force_, reaction_);
+      velocity_before_, porosity_, drag_coefficient_, fluid_mass_, added_mass_, fluid_velocity_, fluid_acceleration_, other_force_,
+      reaction_);
   }
 
  private:
@@ -91,8 +91,8 @@ class GrainFluidCoupling {
   Array<float, Exec> sums_;              ///< 12 rows of 4 per cluster, as gathered
   Array<float, Exec> water_;             ///< u (m3), pressure (Pa), 1/(1 - S_wall) of the water, 4 each, per cluster
   Array<Vec3f, Exec> velocity_before_;   ///< m/s, when placed
-  Array<float, Exec> porosity_, drag_coefficient_, added_mass_;
-  Array<Vec3f, Exec> fluid_velocity_, other_force_, inertia_force_;
+  Array<float, Exec> porosity_, drag_coefficient_, fluid_mass_, added_mass_;
+  Array<Vec3f, Exec> fluid_velocity_, fluid_acceleration_, other_force_;
   Array<float, Exec> reaction_;          ///< 3 rows of 4 per fluid cluster
 };
 

@@ -255,7 +255,7 @@ void GrainSystem<Exec>::restore_lists(const std::vector<RowRange>& range, const 
     quiet_until_.assign(quiet_until);
   }
   next_.assign(now_.to_host());
-  set_fluid(nullptr, nullptr, nullptr, nullptr);
+  set_fluid({});
   listed_ = true;
 }
 

@@ -13,6 +13,8 @@ struct GrainStep {
   ContactLaws<Law> laws;
   GrainStepView v;
   Float4 gravity, unit, inverse_unit;   // of v, side by side
+  // 0 where a disc of a plane scene cannot go: rounding in the normals of walls would make a loaded heap buckle.
+  Float4 moves, turns;
 
   template <class R>
   struct Sums {
@@ -139,16 +141,27 @@ struct GrainStep {
   GDESP_HD Float4 kicked_velocity(Index i, const GrainRecord& own, Float4 force, float kick, bool writes) const {
     const Float4 old = exec::load3(v.velocity[i]);
     force = force + own.mass * gravity;
-    if (!v.fluid.drag_coefficient) return old + (kick / own.mass) * force;
-    force = force + exec::load3(v.fluid.other_force[i]);
-    const float mass = own.mass + v.fluid.added_mass[i], drag = v.fluid.drag_coefficient[i];
-    const Float4 velocity = dragged_velocity(old, kick / mass, force, drag, exec::load3(v.fluid.fluid_velocity[i]));
+    if (!v.fluid.drag_coefficient) return old + (kick / own.mass) * (moves * force);
+    force = moves * (force + exec::load3(v.fluid.other_force[i]));
+    const float mass = own.mass + v.fluid.added_mass[i];
+    const Float4 free = old + (kick / mass) * force;
+    const Float4 velocity = free + (1.0f / mass) * dragged(i, free, 1.0f / mass, kick, writes);
     if (writes) {
       const auto change = static_cast<Vec3d>(exec::first3(velocity)) - static_cast<Vec3d>(exec::first3(old));
       v.fluid.drag_impulse[i] += static_cast<double>(mass) * change -
                                  static_cast<double>(kick) * static_cast<Vec3d>(exec::first3(force));
     }
     return velocity;
+  }
+  // Impulse of drag on a grain that would have the velocity `free`; the water around it answers.
+  GDESP_HD Float4 dragged(Index i, const Float4& free, float inverse_mass, float kick, bool writes) const {
+    const float drag = v.fluid.drag_coefficient[i];
+    if (!(drag > 0.0f)) return Float4{0.0f, 0.0f, 0.0f, 0.0f};
+    const DraggedPair pair{drag, inverse_mass, 1.0f / v.fluid.fluid_mass[i]};
+    const Float4 u = exec::load3(v.fluid.fluid_velocity[i]) + kick * exec::load3(v.fluid.fluid_acceleration[i]);
+    const Float4 impulse = drag_impulse(pair, kick, moves * (u - free));
+    if (writes) v.fluid.fluid_velocity[i] = exec::first3(u - pair.inverse_water * impulse);
+    return impulse;
   }
 
   // The four quarters of a record change side by side; what is last in each (radius, mass, mobility, wall) stays.
@@ -159,7 +172,7 @@ struct GrainStep {
     const Float4 velocity_old = exec::load3(v.velocity[i]), spin_old = exec::load3(v.spin[i]);
     const Float4 velocity = kicked_velocity(i, own, force, kick, writes);
     const float turn = kick / (v.inertia_factor * own.mass * own.radius * own.radius);
-    const Float4 spin = spin_old + turn * torque;
+    const Float4 spin = spin_old + turn * (turns * torque);
     // Moves by whole units; the part of a unit that is left is owed.
     const float* record = reinterpret_cast<const float*>(&own);
     const Float4 wanted = drift * velocity * inverse_unit + exec::load3(Vec3f{own.rest_x, own.rest_y, own.rest_z});
@@ -196,8 +209,8 @@ struct GrainStep {
       if (lanes.leader()) {
         v.next[i] = own;
         if (v.fluid.drag_coefficient) {  // held against the flow: all that drag gives
-          const Vec3d pull = static_cast<Vec3d>(v.fluid.fluid_velocity[i]) * static_cast<double>(v.fluid.drag_coefficient[i]);
-          v.fluid.drag_impulse[i] += pull * static_cast<double>(v.half.before + v.half.after);
+          const Float4 pull = dragged(i, Float4{0.0f, 0.0f, 0.0f, 0.0f}, 0.0f, v.half.before + v.half.after, true);
+          v.fluid.drag_impulse[i] += static_cast<Vec3d>(exec::first3(pull));
         }
       }
       return {};
@@ -226,10 +239,12 @@ template <class Exec, class Law>
 void run_grain_step(const Exec& exec, const ContactLaws<Law>& laws, const GrainStepView& view, Index slots,
                     const exec::Gate& gate, exec::Largest* measure) {
   const Float4 gravity = exec::load3(view.gravity), unit = exec::load3(view.unit.metres), inverse = exec::load3(view.unit.inverse);
+  const float across = view.plane ? 0.0f : 1.0f;
+  const Float4 moves{1.0f, across, 1.0f, 0.0f}, turns{across, 1.0f, across, 0.0f};
   if (view.contacts.rolling) {
-    exec::row_pass(exec, "dem::step", slots, GrainStep<Law, true>{laws, view, gravity, unit, inverse}, gate, measure);
+    exec::row_pass(exec, "dem::step", slots, GrainStep<Law, true>{laws, view, gravity, unit, inverse, moves, turns}, gate, measure);
   } else {
-    exec::row_pass(exec, "dem::step", slots, GrainStep<Law, false>{laws, view, gravity, unit, inverse}, gate, measure);
+    exec::row_pass(exec, "dem::step", slots, GrainStep<Law, false>{laws, view, gravity, unit, inverse, moves, turns}, gate, measure);
   }
 }
 

@@ -21,6 +21,7 @@ struct GrainStepView {
   FluidOnGrains fluid;
   Vec3f gravity;                       ///< m/s2
   float inertia_factor = 0.4f;         ///< I / (m R^2)
+  bool plane = false;                  ///< two dimensions: discs move along x and z and turn about y only
   HalfSteps half;                      ///< s
 };
 

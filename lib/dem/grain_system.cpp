@@ -216,7 +216,7 @@ void GrainSystem<Exec>::sort() {
   exec::parallel_for(exec_, "dem::sort", slots_, WrapGrains{domain_, now_.data(), position_.data()});
   drift_ = 0.0;
   ++sorts_;
-  set_fluid(nullptr, nullptr, nullptr, nullptr);
+  set_fluid({});
 }
 
 template <class Exec>
@@ -282,15 +282,14 @@ void GrainSystem<Exec>::sort_grains() {
 }
 
 template <class Exec>
-void GrainSystem<Exec>::set_fluid(const float* drag_coefficient, const Vec3f* fluid_velocity, const Vec3f* other_force,
-                                  const float* added_mass) {
-  fluid_ = {};
-  if (!drag_coefficient) return;
+void GrainSystem<Exec>::set_fluid(const FluidOnGrains& fluid) {
+  fluid_ = fluid;
+  if (!fluid.drag_coefficient) return;
   if (drag_impulse_.size() != static_cast<std::size_t>(slots_)) {
     shrink_discard(exec_, drag_impulse_, slots_);
     clear_drag_impulse();
   }
-  fluid_ = {drag_coefficient, fluid_velocity, other_force, added_mass, drag_impulse_.data()};
+  fluid_.drag_impulse = drag_impulse_.data();
 }
 
 template <class Exec>
@@ -312,7 +311,8 @@ void GrainSystem<Exec>::run(const ContactLaws<Law>& pair, const ContactLaws<Law>
     walls_.step(wall, {now_.data(), start_.data(), half, inertia}, in_batch, gate, measure);
   }
   GrainStepView view{contacts_.view(), position_unit(domain_), now_.data(), next_.data(), start_.data(),
-                     velocity_.data(), spin_.data(), walls_.forces(), fluid_, static_cast<Vec3f>(gravity_), inertia, half};
+                     velocity_.data(), spin_.data(), walls_.forces(), fluid_, static_cast<Vec3f>(gravity_), inertia,
+                     domain_.dimensions == 2, half};
   run_grain_step(exec_, pair, view, slots_, gate, measure + 1);
   now_.swap(next_);
 }

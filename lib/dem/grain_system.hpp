@@ -71,10 +71,9 @@ class GrainSystem {
   double largest_speed() const { return std::sqrt(static_cast<double>(speed2_)); }   ///< m/s, at the last sub-step
   long sorts() const { return sorts_; }                     ///< changes with the order of slots
 
-  // Coupling. The arrays are the caller's, by slot, and must live until the next set_fluid() or sort_grains() (which
-  // forgets them). Null: dry grains.
-  void set_fluid(const float* drag_coefficient, const Vec3f* fluid_velocity, const Vec3f* other_force,
-                 const float* added_mass);
+  // Coupling. The arrays are the caller's, by slot, all of them or none (dry grains), and must live until the next
+  // set_fluid() or sort_grains() (which forgets them); drag_impulse is the system's own.
+  void set_fluid(const FluidOnGrains& fluid);
   const Vec3d* drag_impulse() const { return drag_impulse_.data(); }   ///< N s, given by the fluid since the last clear
   void clear_drag_impulse();
   /// s: time for which the last advance() applied constant forces (half steps lag behind: not exactly its dt).

@@ -57,8 +57,9 @@ GrainStart make_grain_start(const Domain& domain, const GrainTable& table) {
     Vec3d place = table.position[i];
     if (domain.dimensions == 2) place.y = 0.0;
     const FixedPosition p = domain.wrapped(domain.fixed(place));
-    const Vec3f v = table.velocity.empty() ? Vec3f{} : table.velocity[i];
-    const Vec3f w = table.angular_velocity.empty() ? Vec3f{} : table.angular_velocity[i];
+    Vec3f v = table.velocity.empty() ? Vec3f{} : table.velocity[i];
+    Vec3f w = table.angular_velocity.empty() ? Vec3f{} : table.angular_velocity[i];
+    if (domain.dimensions == 2) v.y = w.x = w.z = 0.0f;
     GrainRecord record{};
     record.x = static_cast<std::int32_t>(Domain::fraction_of(p.x));
     record.y = static_cast<std::int32_t>(Domain::fraction_of(p.y));

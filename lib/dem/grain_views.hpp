@@ -48,9 +48,11 @@ struct WallForce {
 /// What the fluid asks of the grains, by slot; null pointers in a dry run.
 struct FluidOnGrains {
   const float* drag_coefficient = nullptr;   ///< kg/s
-  const Vec3f* fluid_velocity = nullptr;     ///< m/s
-  const Vec3f* other_force = nullptr;        ///< N
+  const float* fluid_mass = nullptr;         ///< kg, of the water that shares the drag
   const float* added_mass = nullptr;         ///< kg
+  const Vec3f* other_force = nullptr;        ///< N
+  const Vec3f* fluid_acceleration = nullptr; ///< m/s2, of that water, but for drag
+  Vec3f* fluid_velocity = nullptr;           ///< m/s, of that water; goes on with the sub-steps
   Vec3d* drag_impulse = nullptr;             ///< N s, given by the fluid, summed over sub-steps
 };
 

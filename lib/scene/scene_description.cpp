@@ -154,7 +154,7 @@ void describe_coupling(V& v, Coupling& c) {
   v.enter("coupling");
   v.boolean({"enabled", "", "fluid and grains act on each other"}, c.enabled);
   v.choice({"drag", "", "drag law; preset paper: ergun-wen-yu"}, c.drag, {"ergun-wen-yu", "di-felice"});
-  v.number({"smoothing_length", "m", "of the averaging between grains and fluid; 0: max(h, 2 d_max)"},
+  v.number({"smoothing_length", "m", "of the averaging between grains and fluid; 0: max(3 h, 2 d_max), in the plane max(4 h, 2 d_max)"},
            c.smoothing_length, not_negative);
   v.number({"added_mass", "1", "added-mass coefficient; preset paper: 0"}, c.added_mass, not_negative);
   v.leave();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coupling/averaging_length.hpp"
 #include "simulation/coupled_simulation.hpp"
 
 namespace gdesp {
@@ -19,7 +20,8 @@ void CoupledSimulation<Exec>::start_grains(const SimulationInput& input) {
   coupling::CouplingLaw law;
   law.drag = input.coupling.drag;
   law.smoothing_length = input.coupling.smoothing_length > 0.0
-                             ? input.coupling.smoothing_length : std::max(p.h, 4.0 * grains_->largest_radius());
+                             ? input.coupling.smoothing_length
+                             : coupling::default_averaging_length(p.h, 2.0 * grains_->largest_radius(), p.dimensions);
   law.added_mass = input.coupling.added_mass;
   law.fluid_density = p.reference_density;
   law.dynamic_viscosity = p.reference_density * p.kinematic_viscosity;
@@ -63,10 +65,10 @@ void CoupledSimulation<Exec>::porosity_now(double ahead) {
 }
 
 template <class Exec>
-void CoupledSimulation<Exec>::gather_forces(double dt) {
+void CoupledSimulation<Exec>::gather_forces() {
   if (!grains_in_water()) return;
   water_reset_ = false;
-  coupling_->gather_forces(*grains_, fluid_, static_cast<float>(dt));
+  coupling_->gather_forces(*grains_, fluid_);
 }
 
 template <class Exec>
@@ -75,7 +77,7 @@ void CoupledSimulation<Exec>::couple_grains(double dt) {
   if (!grains_in_water()) {
     if (coupling_ && !water_reset_) {
       fluid_.reset_coupling();
-      grains_->set_fluid(nullptr, nullptr, nullptr, nullptr);
+      grains_->set_fluid({});
       water_reset_ = true;
     }
     advance_solids(dt);
@@ -95,7 +97,7 @@ template void CoupledSimulation<Backend>::start_grains(const SimulationInput&);
 template sph::Movers CoupledSimulation<Backend>::movers() const;
 template void CoupledSimulation<Backend>::refresh_coupling(double, bool);
 template void CoupledSimulation<Backend>::porosity_now(double);
-template void CoupledSimulation<Backend>::gather_forces(double);
+template void CoupledSimulation<Backend>::gather_forces();
 template void CoupledSimulation<Backend>::couple_grains(double);
 template int CoupledSimulation<Backend>::substeps_for(double) const;
 

@@ -99,7 +99,7 @@ void CoupledSimulation<Exec>::fluid_split_step(float dt) {
     fluid_.wall_continuity_pass();
     fluid_.evolve_dynamic_walls(dt);
   }
-  gather_forces(static_cast<double>(dt));
+  gather_forces();
   fluid_.spacing_pass();
   fluid_.momentum_pass();
   measure_loads(false);
@@ -123,7 +123,7 @@ void CoupledSimulation<Exec>::fluid_verlet_step(float dt) {
     fluid_.wall_continuity_pass();
     fluid_.evolve_dynamic_walls(dt);
   }
-  gather_forces(static_cast<double>(dt));
+  gather_forces();
   fluid_.combined_pass();
   measure_loads(true);
   couple_grains(static_cast<double>(dt));

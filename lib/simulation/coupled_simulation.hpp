@@ -53,7 +53,7 @@ class CoupledSimulation final : public Simulation {
   sph::Movers movers() const;
   void refresh_coupling(double fluid_move, bool fluid_sorted);
   void porosity_now(double ahead);
-  void gather_forces(double dt);
+  void gather_forces();
   void couple_grains(double dt);
   int substeps_for(double dt) const;
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "coupling/averaging_length.hpp"
 #include "simulation/simulation.hpp"
 
 namespace gdesp::tool {
@@ -109,7 +110,7 @@ StepCosts measure_step_costs(const SimulationInput& scene, const std::string& de
     if (scene.coupling.enabled && costs.water > 0.0) {
       const float largest = *std::max_element(scene.grains.diameter.begin(), scene.grains.diameter.end());
       const double reach = scene.coupling.smoothing_length > 0.0 ? scene.coupling.smoothing_length
-                                                                 : std::max(p.h, 2.0 * static_cast<double>(largest));
+                                                                 : coupling::default_averaging_length(p.h, largest, p.dimensions);
       costs.coupling = coupling_share * costs.water * std::pow(reach / p.h, p.dimensions);
     }
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // @eq coupling.drag.ergun-wen-yu
 // @eq coupling.drag.di-felice
-// @eq coupling.drag.implicit
 #include "coupling/drag.hpp"
 
 #include <gtest/gtest.h>
@@ -65,18 +64,6 @@ TEST(Drag, is_finite_at_rest_and_grows_with_slip) {
       before_f = f;
     }
   }
-}
-
-TEST(ImplicitDrag, gives_the_impulse_of_the_two_body_relaxation_for_any_step) {
-  const float m = 2.0f, m_f = 1.0f, k = 3.0f;
-  for (float dt : {1e-4f, 0.1f, 10.0f}) {
-    const double reduced = 2.0 / 3.0;
-    const double impulse = reduced * (1.0 - std::exp(-3.0 * static_cast<double>(dt) / reduced));
-    const double held = static_cast<double>(implicit_drag(k, m, m_f, dt));
-    EXPECT_NEAR(2.0 * (1.0 - std::exp(-held * static_cast<double>(dt) / 2.0)), impulse, 1e-4 * impulse);
-  }
-  EXPECT_NEAR(implicit_drag(k, m, m_f, 1e-5f), k, 1e-3f);
-  EXPECT_EQ(implicit_drag(0.0f, m, m_f, 0.1f), 0.0f);
 }
 
 }  // namespace

@@ -183,10 +183,29 @@ TEST(TimeStepLimits, HandValues) {
 
 // @eq dem.motion.drag
 TEST(SemiImplicitDrag, RelaxesWithoutOvershoot) {
-  // share b = 3: v = (2 + 3 * 10)/(1 + 3) = 8.
-  EXPECT_NEAR(dragged_velocity(2.0f, 1.5f, 0.0f, 2.0f, 10.0f), 8.0f, 1e-6f);
-  EXPECT_NEAR(dragged_velocity(2.0f, 1.0e6f, 0.0f, 1.0f, 10.0f), 10.0f, 1e-4f);
-  EXPECT_NEAR(dragged_velocity(2.0f, 0.5f, 3.0f, 0.0f, 10.0f), 3.5f, 1e-6f);
+  // k b = 3, 1/M = 0.5, 1/m_f = 0.5: J = 3 * 8/(1 + 3).
+  EXPECT_NEAR(drag_impulse({2.0f, 0.5f, 0.5f}, 1.5f, 8.0f), 6.0f, 1e-5f);
+  // Whatever the step, the slip ends no lower than zero: J (1/M + 1/m_f) = slip at most.
+  EXPECT_NEAR(drag_impulse({2.0f, 0.5f, 0.5f}, 1.0e8f, 8.0f), 8.0f, 1e-4f);
+  EXPECT_EQ(drag_impulse({0.0f, 0.5f, 0.5f}, 1.0f, 8.0f), 0.0f);
+}
+
+// The steady slip of a grain and the water around it, mu (a_u - F/M)/b, at steps from far below to far above mu/b.
+TEST(SemiImplicitDrag, TerminalVelocityKnowsNoStep) {
+  const double M = 2.0, m_f = 3.0, b = 60.0, grain_force = -12.0, water = 1.5, mu = M * m_f / (M + m_f);
+  const double expected = mu * (water - grain_force / M) / b;
+  for (const double kick : {1.0e-4, 1.0e-2, 1.0, 100.0}) {
+    double u = 0.0, v = 0.0;
+    for (double t = 0.0; t < 20.0 * mu / b || t < 20.0 * kick; t += kick) {
+      const double free = v + kick * grain_force / M;
+      u += kick * water;
+      const double J = static_cast<double>(drag_impulse({static_cast<float>(b), static_cast<float>(1.0 / M), static_cast<float>(1.0 / m_f)},
+                                                        static_cast<float>(kick), static_cast<float>(u - free)));
+      v = free + J / M;
+      u -= J / m_f;
+    }
+    EXPECT_NEAR((u - v) / expected, 1.0, 1e-3) << kick;
+  }
 }
 
 TEST(ContactParameters, SaysWhatIsWrong) {

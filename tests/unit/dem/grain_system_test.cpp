@@ -296,10 +296,10 @@ TEST_F(GrainSystemTest, DragGivesWhatTheGrainTakes) {
   Grains grains({}, space({0, 0, 0}, {1, 1, 1}, 0.01), table, soft(), {}, {});
   const double m = 2500.0 * 4.0 / 3.0 * 3.14159265358979 * 1.0e-6;
   const auto n = static_cast<std::size_t>(grains.slots());
-  // Relaxation 1000 times shorter than the sub-step.
-  std::vector<float> drag(n, static_cast<float>(m / 1.0e-6)), added(n, 0.0f);
-  std::vector<Vec3f> fluid(n, Vec3f{0.5f, 0, 0}), force(n, Vec3f{});
-  grains.set_fluid(drag.data(), fluid.data(), force.data(), added.data());
+  // Relaxation 1000 times shorter than the sub-step, much water.
+  std::vector<float> drag(n, static_cast<float>(m / 1.0e-6)), water(n, static_cast<float>(1.0e6 * m)), added(n, 0.0f);
+  std::vector<Vec3f> fluid(n, Vec3f{0.5f, 0, 0}), force(n), acceleration(n);
+  grains.set_fluid({drag.data(), water.data(), added.data(), force.data(), acceleration.data(), fluid.data()});
   grains.clear_drag_impulse();
   grains.advance(0.02, 20);
   EXPECT_NEAR(grains.table().velocity[0].x, 0.5f, 1e-4f);
@@ -314,11 +314,39 @@ TEST_F(GrainSystemTest, AddedMassSlowsAndOtherForcePushes) {
   Grains grains({}, space({0, 0, 0}, {1, 1, 1}, 0.01), table, soft(), {}, {});
   const auto m = static_cast<float>(2500.0 * 4.0 / 3.0 * 3.14159265358979 * 1.0e-6);
   const auto n = static_cast<std::size_t>(grains.slots());
-  std::vector<float> drag(n, 0.0f), added(n, m);
-  std::vector<Vec3f> fluid(n), force(n, Vec3f{0, m * 3.0f, 0});
-  grains.set_fluid(drag.data(), fluid.data(), force.data(), added.data());
+  std::vector<float> drag(n, 0.0f), water(n, m), added(n, m);
+  std::vector<Vec3f> fluid(n), acceleration(n), force(n, Vec3f{0, m * 3.0f, 0});
+  grains.set_fluid({drag.data(), water.data(), added.data(), force.data(), acceleration.data(), fluid.data()});
   grains.advance(0.1, 10);
   EXPECT_NEAR(grains.table().velocity[0].y, 0.15f, 1e-5f);
+}
+
+// Two grains in much water: one falls at its terminal velocity though drag relaxes a hundred times within a sub-step, one lies on
+// a floor at the depth of Hertz, held by its contact: drag must not carry what the floor carries.
+TEST_F(GrainSystemTest, StiffDragCarriesTheWeightOfAFallingGrainOnly) {
+  GrainTable table;
+  add_grain(table, {0.3, 0.5, 0.5}, 0.02, 2500);
+  const double m = 2500.0 * 4.0 / 3.0 * 3.14159265358979 * 1.0e-6, rate = 1.0e6;
+  const double resting = 0.01 - std::pow(0.75 * m * 9.81 / (1.0e6 / (2.0 * 0.91) * 0.1), 2.0 / 3.0);
+  add_grain(table, {0.7, 0.5, resting}, 0.02, 2500);
+  Grains grains({}, space({0, 0, 0}, {1, 1, 1}, 0.01), table, soft(), floor_mesh(0, 1, 0, 1, 0, 0.5), {0, 0, -9.81});
+  const auto n = static_cast<std::size_t>(grains.slots());
+  std::vector<float> drag(n, static_cast<float>(m * rate)), water(n, static_cast<float>(1.0e9 * m)), added(n, 0.0f);
+  std::vector<Vec3f> fluid(n), force(n), acceleration(n);
+  grains.set_fluid({drag.data(), water.data(), added.data(), force.data(), acceleration.data(), fluid.data()});
+  grains.clear_drag_impulse();
+  grains.advance(0.1, 1000);
+  const GrainTable end = grains.table();
+  EXPECT_NEAR(end.velocity[0].z * static_cast<float>(rate), -9.81f, 0.02f);
+  EXPECT_LT(std::abs(end.position[1].z - resting), 1e-7);
+  for (std::size_t s = 0; s < n; ++s) {
+    const double share = grains.drag_impulse()[s].z / (m * 9.81 * 0.1);
+    if (grains.ids()[s] == 0) {
+      EXPECT_NEAR(share, 1.0, 2e-3);
+    } else if (grains.ids()[s] == 1) {
+      EXPECT_LT(share, 0.02);
+    }
+  }
 }
 
 TEST_F(GrainSystemTest, LostGrainsAreCounted) {
@@ -385,6 +413,33 @@ TEST_F(GrainSystemTest, DiscsStayInTheirPlane) {
   // A sliding disc (I = m r^2/2) ends rolling at 2/3 of its speed.
   EXPECT_NEAR(end.velocity[0].x, 2.0 / 3.0, 0.02);
   EXPECT_NEAR(end.angular_velocity[0].y * 0.01f / end.velocity[0].x, 1.0f, 1e-3f);
+}
+
+// A hopper full of discs under a heavy one: rounding in the normals of its sides must not push any out of the plane.
+TEST_F(GrainSystemTest, LoadedDiscsStayInTheirPlane) {
+  GrainTable table;
+  for (int row = 0; row < 12; ++row)
+    for (int k = 0; k <= row; ++k) add_grain(table, {0.5 + 0.0101 * (k - 0.5 * row), 0.003, 0.03 + 0.0088 * row}, 0.01, 2500,
+                                             {0.01, 0.2, 0}, {3, 1, 2});
+  add_grain(table, {0.5, 0, 0.2}, 0.1, 20000);
+  TriangleTable walls;
+  for (const double side : {-1.0, 1.0}) {
+    const Vec3d low{0.5 + side * 0.002, -0.1, 0.0103}, high{0.5 + side * 0.1517, -0.1, 0.2681}, across{0, 0.2, 0};
+    if (side < 0) add_rectangle(walls, low, low + across, high + across, high);
+    else add_rectangle(walls, low, high, high + across, low + across);
+  }
+  Grains grains({}, space({0, -0.004, 0}, {1, 0.004, 1}, 0.008, 2), table, soft(0.3, 0.5), walls, {0, 0, -9.81});
+  for (int k = 0; k < 20; ++k) grains.advance(0.05, 5 * static_cast<int>(0.01 / grains.stable_time_step(0.2) + 1.0));
+  EXPECT_EQ(grains.lost(), 0);
+  EXPECT_GT(grains.sums().contacts, 78);
+  const GrainTable end = grains.table();
+  for (std::size_t i = 0; i < end.position.size(); ++i) {
+    EXPECT_EQ(end.position[i].y, 0.0) << i;
+    EXPECT_EQ(end.velocity[i].y, 0.0f) << i;
+    EXPECT_EQ(end.angular_velocity[i].x, 0.0f) << i;
+    EXPECT_EQ(end.angular_velocity[i].z, 0.0f) << i;
+  }
+  EXPECT_GT(end.position[78].z, 0.1);
 }
 
 }  // namespace

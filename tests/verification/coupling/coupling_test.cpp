@@ -116,6 +116,7 @@ SimulationInput block_into_water() {
       input.grains.density.push_back(2650.0f);
     }
   input.contact.youngs_modulus = 1e7;
+  input.coupling.smoothing_length = input.fluid_parameters.h;   // shorter than the default: the sharpest squeeze
   return input;
 }
 
@@ -136,6 +137,42 @@ TEST(Coupling, a_dense_block_into_water_makes_no_energy_and_no_spray) {
   EXPECT_LT(rise, 2e-3 * kinetic);
   EXPECT_LT(speed, 4.0);
   EXPECT_GT(speed, 1.0);
+}
+
+// Pores hold what the grains leave, whether the table has a full lattice there or one thinned to the pores. Counted exactly: a
+// periodic box all full of evenly spread grains. A kernel sum that takes the particle itself for more than its room finds 3 %
+// (plane) and 2 % less.
+TEST(Coupling, pores_hold_the_water_that_grains_leave) {
+  const double dp = 0.01;
+  const int n = 16;
+  for (const int dimensions : {2, 3}) {
+    const auto spread = [&](int across, std::vector<Vec3d>& places) {
+      const double step = n * dp / across;
+      for (int i = 0; i < across; ++i)
+        for (int j = 0; j < (dimensions == 2 ? 1 : across); ++j)
+          for (int k = 0; k < across; ++k) places.push_back({(i + 0.5) * step, dimensions == 2 ? 0.0 : (j + 0.5) * step, (k + 0.5) * step});
+    };
+    const int thin = dimensions == 2 ? 10 : 12;
+    const double eps = std::pow(static_cast<double>(thin) / n, dimensions), solid = (1.0 - eps) * std::pow(dp, dimensions);
+    const double d = dimensions == 2 ? std::sqrt(4.0 * solid / 3.14159265) : std::cbrt(6.0 * solid / 3.14159265);
+    for (const int across : {n, thin}) {
+      SimulationInput input = periodic_box(dp, n);
+      input.fluid_parameters.dimensions = dimensions;
+      if (dimensions == 2) {
+        input.lower.y = -0.5 * dp;
+        input.upper.y = 0.5 * dp;
+        input.periodic[1] = false;
+      }
+      input.fluid = {};
+      spread(across, input.fluid.position);
+      input.fluid.density.assign(input.fluid.position.size(), 1000.0f);
+      spread(n, input.grains.position);
+      input.grains.diameter.assign(input.grains.position.size(), static_cast<float>(d));
+      input.grains.density.assign(input.grains.position.size(), 2650.0f);
+      auto simulation = make_simulation(input, "cpu");
+      EXPECT_NEAR(simulation->diagnostics().fluid_mass / (1000.0 * eps * std::pow(n * dp, dimensions)), 1.0, 0.005) << dimensions << " " << across;
+    }
+  }
 }
 
 }  // namespace
