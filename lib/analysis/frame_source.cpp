@@ -106,7 +106,7 @@ Frame FrameSource::Reader::load(const FramePaths& p) {
     file_offset = meta.offset;
   }
   if (options.grains && !p.grains.empty()) frame.grains = read_grain_frame(p.grains, options.mapping, &meta);
-  if (options.bodies && !p.bodies.empty()) frame.bodies = read_triangles_vtp(p.bodies);
+  if (options.bodies && !p.bodies.empty()) read_bodies_frame(p.bodies, frame);
   return frame;
 }
 

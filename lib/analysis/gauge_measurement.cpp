@@ -14,6 +14,23 @@ namespace gdesp::analysis {
 namespace {
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
+/// m, level of a far lake's columns at x, linear between their middles; nothing beside them. The first and the last reach as far to the
+/// outside as to their neighbour's middle.
+std::optional<double> far_lake_level(const std::vector<FarLakeTable>& lakes, double x) {
+  for (const FarLakeTable& lake : lakes) {
+    const std::size_t n = lake.x.size();
+    if (n < 2) continue;
+    const double side = lake.x[1] > lake.x[0] ? 1.0 : -1.0;
+    const auto at = [&](std::size_t j) { return side * (lake.x[j] - x); };
+    if (at(0) > 0.5 * (at(1) - at(0)) || -at(n - 1) > 0.5 * (at(n - 1) - at(n - 2))) continue;
+    std::size_t j = 1;
+    while (j + 1 < n && at(j) < 0.0) ++j;
+    const double share = std::clamp(-at(j - 1) / (at(j) - at(j - 1)), 0.0, 1.0);
+    return lake.level[j - 1] + share * (lake.level[j] - lake.level[j - 1]);
+  }
+  return std::nullopt;
+}
+
 bool any_number(const std::vector<double>& v) {
   return std::any_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); });
 }
@@ -53,7 +70,9 @@ void GaugeMeasurement::add(FrameView& view, const RowSink& emit) {
   for (std::size_t k = 0; k < gauge_.size(); ++k) {
     const Gauge& g = gauge_[k];
     double level = none, pressure = none;
-    if (!fluid.position.empty()) {
+    if (const auto z = far_lake_level(view.frame().far_lakes, g.at.x)) {
+      level = *z + info_.offset.z;
+    } else if (!fluid.position.empty()) {
       if (const auto z = view.water().surface_level(g.at.x, g.at.y)) level = *z + info_.offset.z;
       if (g.has_z && fluid.pressure.size() == fluid.position.size()) {
         // No water there: none pressed. Above the surface of standing water the carried value would turn negative.

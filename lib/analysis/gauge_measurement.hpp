@@ -12,7 +12,7 @@ struct GaugeOptions {
   double threshold = 0.0;              ///< m, departure that counts as arrival; 0: dp / 2
 };
 
-/// Level: the free surface over (x, y) of the connected water (free_surface.hpp). Pressure, where the gauge has a z: mean of
+/// Level: the free surface over (x, y) of the connected water (free_surface.hpp), or of a far lake's column where one is. Pressure, where the gauge has a z: mean of
 /// the particles' pressure weighted with W within 2.6 dp, each carried hydrostatically to the gauge's height.
 /// Arrival: first departure of the level (of the pressure, where the gauge stands dry: never) by the threshold
 /// from its first reading, linear between frames. A gauge that is dry at first: when it first is wet.

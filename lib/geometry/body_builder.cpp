@@ -13,6 +13,7 @@ namespace gdesp::geometry {
 namespace {
 
 constexpr double forever = 1e5;   // s; a constant velocity is tabulated up to here
+constexpr double columns_a_depth = 5.0;
 
 bool four_numbers(const std::string& line, double (&v)[4]) {
   std::size_t at = 0;
@@ -67,6 +68,10 @@ PrescribedMotion constant_motion(const Vec3d& velocity, double start, double sto
 Body moving_body(const MovingBody& body, double gravity) {
   Body out;
   out.name = body.name;
+  if (body.far_lake.length > 0.0) {
+    out.kind = BodyKind::far_lake;
+    return out;
+  }
   out.kind = BodyKind::prescribed;
   const Wave& wave = body.wave;
   if (wave.kind == "solitary") {
@@ -76,6 +81,38 @@ Body moving_body(const MovingBody& body, double gravity) {
   }
   out.motion.remove_at = body.remove_at;
   return out;
+}
+
+FarLakeShape far_lake_behind(const MovingBody& body, const Box& box, const FluidTable& water, double dp, int dimensions) {
+  const FarLakeKeys& keys = body.far_lake;
+  FarLakeShape lake;
+  lake.length = keys.length;
+  lake.depth = keys.depth;
+  lake.columns = keys.columns > 0 ? static_cast<int>(keys.columns) : std::max(8, static_cast<int>(std::ceil(columns_a_depth * keys.length / keys.depth)));
+  lake.side = keys.side == "x+" ? 1.0 : -1.0;
+  lake.wall = keys.side == "x+" ? box.lower.x : box.upper.x;
+  Box layer = empty_box();  // of the water that touches the wall
+  double particles = 0.0;
+  for (const Vec3d& r : water.position) {
+    const double away = lake.side * (lake.wall - r.x);
+    if (away < 0.0 || away >= dp * (1.0 - 1e-9)) continue;
+    extend(layer, r);
+    particles += 1.0;
+  }
+  const std::string where = "piston \"" + body.name + "\": far_lake: ";
+  if (particles == 0.0)
+    throw Error(ErrorKind::input, where + "no water touches the face on the other side of it (far_lake.side = \"" + keys.side + "\")");
+  const double depth = layer.upper.z - layer.lower.z + dp;
+  if (std::abs(depth - lake.depth) > 1.01 * dp)
+    throw Error(ErrorKind::input, where + "depth = " + std::to_string(lake.depth) + " m, but the water at the piston is " + std::to_string(depth) + " m deep");
+  lake.level = layer.lower.z - 0.5 * dp + lake.depth;
+  if (dimensions == 2) return lake;
+  lake.width = layer.upper.y - layer.lower.y + dp;
+  const double area = particles * dp * dp;
+  if (std::abs(area - lake.width * depth) > 0.05 * area)
+    throw Error(ErrorKind::input, where + "the water at the piston is no rectangle: " + std::to_string(lake.width) + " m wide, " + std::to_string(depth) +
+                                      " m deep, but an area of " + std::to_string(area) + " m2");
+  return lake;
 }
 
 Body prescribed_slide(const Slide& slide) {

@@ -209,7 +209,13 @@ SlideReport add_solid_slide(const Layout& layout, std::size_t k, Case& out, Note
 }
 
 void add_bodies_and_slides(const Layout& layout, Case& out, BuildReport& report, BuildScope scope) {
-  for (std::size_t k = 0; k < layout.parts.moving.size(); ++k) add_body(layout, layout.parts.moving[k], moving_body(layout.scene.moving[k], norm(layout.scene.gravity)), out);
+  for (std::size_t k = 0; k < layout.parts.moving.size(); ++k) {
+    const SolidPart& part = layout.parts.moving[k];
+    Body body = moving_body(layout.scene.moving[k], norm(layout.scene.gravity));
+    if (body.kind == BodyKind::far_lake)
+      body.far_lake = far_lake_behind(layout.scene.moving[k], *part.box, out.fluid, layout.lattice.dp, layout.scene.dimensions);
+    add_body(layout, part, std::move(body), out);
+  }
   for (std::size_t k = 0; k < layout.parts.slides.size(); ++k) {
     const Slide& slide = layout.scene.slides[k];
     if (slide.kind != "granular") {

@@ -24,9 +24,19 @@ std::string text_of(const Vec3d& v) {
   return text_of(xyz, 3);
 }
 
+const char* kind_name(BodyKind kind) {
+  return kind == BodyKind::free ? "\"free\"" : kind == BodyKind::far_lake ? "\"far-lake\"" : "\"prescribed\"";
+}
+
+std::string far_lake_table(const FarLakeShape& lake) {
+  return "far_lake = {length = " + toml_number(lake.length) + ", depth = " + toml_number(lake.depth) + ", width = " + toml_number(lake.width) +
+         ", columns = " + std::to_string(lake.columns) + ", side = " + toml_number(lake.side) + ", wall = " + toml_number(lake.wall) +
+         ", level = " + toml_number(lake.level) + "}\n";
+}
+
 std::string body_table(const Body& body) {
   std::string out = "\n[[case.body]]\nname = " + toml_string(body.name) + "\n";
-  out += std::string("kind = ") + (body.kind == BodyKind::free ? "\"free\"" : "\"prescribed\"") + "\n";
+  out += std::string("kind = ") + kind_name(body.kind) + "\n";
   out += "centre = " + text_of(body.centre) + "\n";
   out += "velocity = " + text_of(body.velocity) + "\n";
   out += "angular_velocity = " + text_of(body.angular_velocity) + "\n";
@@ -42,7 +52,7 @@ std::string body_table(const Body& body) {
     const double row[4] = {body.motion.time[i], d.x, d.y, d.z};
     out += (i ? ", " : "") + text_of(row, 4);
   }
-  return out + "]\n";
+  return out + "]\n" + (body.kind == BodyKind::far_lake ? far_lake_table(body.far_lake) : "");
 }
 
 /// Reads values out of the [case] table; messages name file and key.
@@ -138,12 +148,30 @@ void read_hold(const Values& values, Body& body) {
   for (std::size_t k = 0; k < 4; ++k) body.fixed[k] = (*fixed)[k].get<bool>();
 }
 
+FarLakeShape far_lake_of(const Values& values) {
+  FarLakeShape lake;
+  lake.length = values.number("length", 0.0);
+  lake.depth = values.number("depth", 0.0);
+  lake.width = values.number("width", 0.0);
+  lake.columns = static_cast<int>(std::min<std::uint64_t>(values.count("columns"), 10000000));
+  lake.side = values.number("side", 0.0);
+  lake.wall = values.number("wall", 0.0);
+  lake.level = values.number("level", 0.0);
+  for (const auto& [key, value] : {std::pair{"length", lake.length}, {"depth", lake.depth}, {"width", lake.width}})
+    if (!(value > 0.0)) values.fail(key, "a number above 0 (m)");
+  if (lake.columns < 2) values.fail("columns", "a whole number from 2");
+  if (std::abs(lake.side) != 1.0) values.fail("side", "1 or -1");
+  return lake;
+}
+
 Body body_of(const Values& values) {
   Body body;
   body.name = values.text("name");
   const std::string kind = values.text("kind");
-  if (kind != "free" && kind != "prescribed") values.fail("kind", "\"free\" or \"prescribed\"");
-  body.kind = kind == "free" ? BodyKind::free : BodyKind::prescribed;
+  if (kind == "free") body.kind = BodyKind::free;
+  else if (kind == "far-lake") body.kind = BodyKind::far_lake;
+  else if (kind != "prescribed") values.fail("kind", "\"free\", \"prescribed\" or \"far-lake\"");
+  if (body.kind == BodyKind::far_lake) body.far_lake = far_lake_of(values.table("far_lake"));
   body.motion = motion_of(values);
   body.centre = values.vector("centre");
   body.velocity = values.vector("velocity");

@@ -22,6 +22,7 @@ struct Frame {
   GrainTable grains;
   TriangleTable bodies;            ///< surfaces of moving bodies, at their place now
   std::vector<BodyState> body_states;
+  std::vector<FarLakeTable> far_lakes;
 };
 
 /// Where one frame's parts lie; empty where there is no such part.
@@ -57,6 +58,8 @@ struct FrameMeta { double time = 0.0; double dp = 0.0; Vec3d offset; bool has_ti
 FluidTable read_fluid_frame(const std::string& path, const std::vector<FieldMapping>& mapping, FrameMeta* meta);
 GrainTable read_grain_frame(const std::string& path, const std::vector<FieldMapping>& mapping, FrameMeta* meta);
 TriangleTable read_triangles_vtp(const std::string& path);
+/// Moving surfaces and far lakes of a bodies_*.vtp frame. Throws Error(input).
+void read_bodies_frame(const std::string& path, Frame& frame);
 
 /// The frames of a finished or running run folder, in time order.
 std::vector<FramePaths> list_frames(const std::string& run_folder);

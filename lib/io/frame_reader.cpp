@@ -29,6 +29,31 @@ GrainTable read_grain_frame(const std::string& path, const std::vector<FieldMapp
 
 TriangleTable read_triangles_vtp(const std::string& path) { return triangles_of(*open_points(path), path); }
 
+namespace {
+
+std::vector<FarLakeTable> far_lakes_of(const PointSource& source, const std::string& path) {
+  const std::vector<double> count = source.field("far_lake_columns"), x = source.field("far_lake_x"), level = source.field("far_lake_level"),
+                            velocity = source.field("far_lake_velocity");
+  std::vector<FarLakeTable> lakes;
+  std::size_t at = 0;
+  for (const double n : count) {
+    if (!(n >= 0.0) || n > static_cast<double>(x.size() - at) || x.size() != level.size() || x.size() != velocity.size())
+      throw Error(ErrorKind::input, path + ": the fields far_lake_* do not belong together");
+    const auto begin = static_cast<std::ptrdiff_t>(at), end = begin + static_cast<std::ptrdiff_t>(n);
+    lakes.push_back({{x.begin() + begin, x.begin() + end}, {level.begin() + begin, level.begin() + end}, {velocity.begin() + begin, velocity.begin() + end}});
+    at = static_cast<std::size_t>(end);
+  }
+  return lakes;
+}
+
+}  // namespace
+
+void read_bodies_frame(const std::string& path, Frame& frame) {
+  const std::unique_ptr<PointSource> source = open_points(path);
+  frame.bodies = triangles_of(*source, path);
+  frame.far_lakes = far_lakes_of(*source, path);
+}
+
 std::vector<BodyState> read_body_states(const std::string& path) {
   const std::unique_ptr<PointSource> source = open_points(path);
   const std::vector<double> centre = source->field("body_centre"), velocity = source->field("body_velocity"),

@@ -59,6 +59,26 @@ struct BodyColumns {
   }
 };
 
+/// Surfaces of far lakes one after the other, and how many columns each has.
+struct FarLakeColumns {
+  std::vector<std::int64_t> count;
+  std::vector<double> x, level, velocity;
+  explicit FarLakeColumns(const std::vector<FarLakeTable>& lakes) {
+    for (const FarLakeTable& lake : lakes) {
+      count.push_back(static_cast<std::int64_t>(lake.x.size()));
+      x.insert(x.end(), lake.x.begin(), lake.x.end());
+      level.insert(level.end(), lake.level.begin(), lake.level.end());
+      velocity.insert(velocity.end(), lake.velocity.begin(), lake.velocity.end());
+    }
+  }
+  void add_to(std::vector<VtpArray>& field) const {
+    field.push_back({"far_lake_columns", ScalarType::int64, 1, count.data(), count.size()});
+    field.push_back({"far_lake_x", ScalarType::float64, 1, x.data(), x.size()});
+    field.push_back({"far_lake_level", ScalarType::float64, 1, level.data(), level.size()});
+    field.push_back({"far_lake_velocity", ScalarType::float64, 1, velocity.data(), velocity.size()});
+  }
+};
+
 }  // namespace
 
 FrameWriter::FrameWriter(std::string run_folder, Vec3d offset, double dp, bool force, bool resume)
@@ -98,6 +118,8 @@ FramePaths FrameWriter::write(const Frame& frame) {
   const BodyColumns columns(frame.body_states);
   std::vector<VtpArray> body_field = field;
   if (!frame.body_states.empty()) columns.add_to(body_field);
+  const FarLakeColumns far(frame.far_lakes);
+  if (!frame.far_lakes.empty()) far.add_to(body_field);
   part("bodies", !frame.bodies.triangle.empty() || !frame.body_states.empty(),
        [&](const std::string& p) { write_triangles(p, frame.bodies, body_field); });
   written_.push_back(paths);

@@ -60,7 +60,28 @@ struct PrescribedMotion {
   double remove_at = -1.0;           ///< s; the body vanishes then; < 0: never
 };
 
-enum class BodyKind { prescribed, free };
+/// Water beyond a vertical wall that is free to move along x, as columns (simulation/far_lake.hpp).
+struct FarLakeShape {
+  double length = 0.0, depth = 0.0;   ///< m, at rest
+  double width = 1.0;                 ///< m; 1 in two dimensions
+  int columns = 0;
+  double side = 1.0;                  ///< 1: the far lake lies towards larger x; -1: towards smaller
+  double wall = 0.0;                  ///< m, x of the wall's face at the start
+  double level = 0.0;                 ///< m, z of the water at rest
+};
+
+/// Its surface: one entry a column, from the wall on.
+struct FarLakeTable {
+  std::vector<double> x;              ///< m, middle of the column
+  std::vector<double> level;          ///< m, z of the surface
+  std::vector<double> velocity;       ///< m/s along x, mean
+};
+
+enum class BodyKind {
+  prescribed,   ///< moves as its table says
+  free,         ///< moves as forces say
+  far_lake,     ///< moves along x with the columns of a far lake behind it
+};
 
 /// A rigid body: gate, piston, rigid slide, floating box. Its particles and triangles name it by number.
 struct Body {
@@ -74,6 +95,7 @@ struct Body {
   double inertia[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0};  ///< kg m2, about the centre, row by row
   double release_at = 0.0;         ///< s; held in place before
   bool fixed[4] = {false, false, false, false};     ///< no motion along x, y, z; no rotation
+  FarLakeShape far_lake;           ///< kind far_lake only
 };
 
 }  // namespace gdesp

@@ -96,6 +96,13 @@ struct Wave {
   Vec3d direction{1.0, 0.0, 0.0};         ///< of its travel
 };
 
+/// Water behind a piston, as columns that move it (docs/decisions/0081).
+struct FarLakeKeys {
+  double length = 0.0, depth = 0.0;       ///< m, at rest; length 0: none
+  std::uint64_t columns = 0;              ///< 0: five a depth
+  std::string side = "x+";                ///< of the piston where it lies: "x+" | "x-"
+};
+
 /// A gate, piston or other body with prescribed motion.
 struct MovingBody {
   std::string name;
@@ -107,6 +114,7 @@ struct MovingBody {
   double remove_at = -1.0;                ///< s; < 0: never
   std::string motion_csv;                 ///< t,dx,dy,dz instead of velocity
   Wave wave;                              ///< piston: instead of both
+  FarLakeKeys far_lake;                   ///< piston: instead of all of them
   std::string condition = "free-slip";
 };
 

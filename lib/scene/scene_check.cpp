@@ -85,6 +85,21 @@ void check_slide(const KeySources& sources, const std::string& key, const Slide&
     fail(sources, key + ".motion_csv", "only with kind \"prescribed\"");
 }
 
+void check_far_lake(const KeySources& sources, const std::string& key, const MovingBody& body, const Scene& scene) {
+  const FarLakeKeys& lake = body.far_lake;
+  if (!sources.given(key + ".far_lake") || body.kind != "piston") return;
+  if (!(lake.length > 0.0) && !(lake.depth > 0.0) && lake.columns == 0) return;  // none, as a case says it
+  if (!(lake.length > 0.0) || !(lake.depth > 0.0)) fail(sources, key + ".far_lake", "needs length > 0 and depth > 0 (m)");
+  if (lake.columns > 0 && lake.columns < 2) fail(sources, key + ".far_lake.columns", "1 column; a far lake needs at least 2");
+  if (!body.shape.box) fail(sources, key, "with far_lake the piston is a box, whose face towards the particles' water is the wall between them");
+  if (body.wave.kind != "none" || !body.motion_csv.empty() || norm(body.velocity) > 0.0 || body.remove_at >= 0.0)
+    fail(sources, key, "with far_lake the water moves the piston: no wave, velocity, motion_csv or remove_at");
+  if (scene.gravity.x != 0.0 || scene.gravity.y != 0.0 || !(scene.gravity.z < 0.0))
+    fail(sources, key + ".far_lake", "needs gravity along -z");
+  for (const std::string& axis : scene.periodic)
+    if (axis == "x") fail(sources, key + ".far_lake", "not in a domain that is periodic along x");
+}
+
 void check_moving(const KeySources& sources, const std::string& key, const MovingBody& body, int dimensions) {
   check_shape(sources, key, body.shape, dimensions);
   if (!body.motion_csv.empty() && sources.given(key + ".velocity") && norm(body.velocity) > 0.0)
@@ -118,8 +133,11 @@ void check_moving_bodies(Scene& scene, const KeySources& sources) {
   for (const char* kind : {"gate", "piston", "body"}) {
     std::vector<MovingBody> bodies;
     for (const MovingBody& body : scene.moving) if (body.kind == kind) bodies.push_back(body);
-    for (std::size_t i = 0; i < bodies.size(); ++i)
-      check_moving(sources, std::string(kind) + "." + std::to_string(i), bodies[i], scene.dimensions);
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      const std::string key = std::string(kind) + "." + std::to_string(i);
+      check_moving(sources, key, bodies[i], scene.dimensions);
+      check_far_lake(sources, key, bodies[i], scene);
+    }
     check_names(sources, kind, bodies);
     std::size_t next = 0;
     for (MovingBody& body : scene.moving) if (body.kind == kind) body.name = bodies[next++].name;

@@ -120,6 +120,13 @@ void describe_moving(V& v, Scene& scene, const char* kind) {
     w.number({"depth", "m", "depth of still water at the piston"}, body.wave.depth, not_negative);
     w.vector({"direction", "1", "in which the piston moves at first and the wave runs"}, body.wave.direction);
     w.leave();
+    w.enter("far_lake");
+    w.number({"length", "m", "of a far lake behind the piston, columns of water that move it; 0: none (docs/decisions/0081)"}, body.far_lake.length,
+             not_negative);
+    w.number({"depth", "m", "of the far lake, and of the water that the piston holds, at rest"}, body.far_lake.depth, not_negative);
+    w.integer({"columns", "", "of the far lake; 0: five a depth"}, body.far_lake.columns, 0, 1000000);
+    w.choice({"side", "", "of the piston where the far lake lies"}, body.far_lake.side, {"x+", "x-"});
+    w.leave();
   });
   scene.moving = std::move(others);
   scene.moving.insert(scene.moving.end(), bodies.begin(), bodies.end());

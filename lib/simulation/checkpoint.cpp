@@ -29,6 +29,7 @@ void CoupledSimulation<Exec>::archive(Archive& a) {
   a(time_, last_dt_, density_lag_, step_factor_, acoustic_step_, step_, rebuilds_, extremes_, body_states_, bound);
   a(rigid_time_, loads_, last_loads_);
   if (rigid_) a(*rigid_);
+  for (LakeBehind& behind : far_lakes_) a(behind.lake);
   if constexpr (std::is_same_v<Archive, exec::StateReader>) {
     limited_by_ = bounds[static_cast<std::size_t>(bound) % std::size(bounds)];
   }

@@ -73,7 +73,7 @@ void CoupledSimulation<Exec>::gather_forces() {
 
 template <class Exec>
 void CoupledSimulation<Exec>::couple_grains(double dt) {
-  if (!grains_ && !rigid_) return;
+  if (!grains_ && loaded_.empty()) return;
   if (!grains_in_water()) {
     if (coupling_ && !water_reset_) {
       fluid_.reset_coupling();

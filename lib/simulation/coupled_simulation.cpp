@@ -207,13 +207,23 @@ Diagnostics CoupledSimulation<Exec>::diagnostics() {
   if (fluid_.set().clusters() > 0) d.awake_share = static_cast<double>(fluid_.awake_clusters()) / fluid_.set().clusters();
   if (rigid_) {
     const dem::RigidSums bodies = rigid_->sums();
-    d.free_bodies = std::count(free_.begin(), free_.end(), 1);
+    d.free_bodies = std::count_if(input_.bodies.begin(), input_.bodies.end(),
+                                  [](const Body& body) { return body.kind == BodyKind::free; });
     d.body_momentum = bodies.momentum;
     d.body_kinetic = bodies.kinetic_energy;
     d.body_potential = bodies.potential_energy;
     d.body_elastic = bodies.elastic_energy;
     d.largest_body_speed = rigid_->largest_speed();
   }
+  for (const LakeBehind& behind : far_lakes_) {
+    const FarLakeSums lake = behind.lake.sums();
+    d.far_lake_mass += lake.mass;
+    d.far_lake_momentum += lake.momentum;
+    d.far_lake_kinetic += lake.kinetic;
+    d.far_lake_potential += lake.potential;
+    d.far_lake_highest = std::max(d.far_lake_highest, lake.highest);
+  }
+  d.far_lakes = static_cast<std::int64_t>(far_lakes_.size());
   if (grains_) {
     const dem::GrainSums grains = grains_->sums();
     d.grains = grains.particles;

@@ -5,6 +5,7 @@
 #include "coupling/grain_fluid_coupling.hpp"
 #include "dem/grain_system.hpp"
 #include "dem/rigid_bodies.hpp"
+#include "simulation/far_lake.hpp"
 #include "simulation/simulation.hpp"
 #include "sph/fluid_system.hpp"
 
@@ -23,6 +24,7 @@ class CoupledSimulation final : public Simulation {
   BoundaryTable boundary() override { return fluid_.wall_table(); }
   GrainTable grains() override;
   std::vector<BodyPose> bodies() override;
+  std::vector<FarLakeTable> far_lakes() override;
   double last_time_step() const override { return last_dt_; }
   std::string limited_by() const override { return limited_by_; }
   StepState step_state() const override;
@@ -42,10 +44,13 @@ class CoupledSimulation final : public Simulation {
   // Bodies (rigid_step.cpp).
   void start_bodies(const SimulationInput& input);
   void place_bodies(double t);
+  dem::BodyMoment body_moment(std::size_t b, double t) const;
   void measure_loads(bool mean_with_last);
   dem::BodyMotionState body_path(std::size_t b, double from, double dt) const;
   std::vector<dem::BodyImpulse> grains_between_bodies(double from, double dt, int substeps);
   void advance_solids(double dt);
+  void advance_far_lakes(double dt, const std::vector<dem::BodyImpulse>& grains);
+  const FarLake& far_lake_of(std::size_t b) const;
   std::vector<std::int32_t> prescribed_numbers() const;
   // Grains and coupling (coupled_grains.cpp).
   void start_grains(const SimulationInput& input);
@@ -68,9 +73,11 @@ class CoupledSimulation final : public Simulation {
   bool water_reset_ = true;           ///< porosity 1 and no reaction are in place
   std::vector<sph::WallBodyState> body_states_;
   std::unique_ptr<dem::RigidBodies> rigid_;          ///< null: no free bodies
-  double rigid_time_ = 0.0;                          ///< s, of their state
+  double rigid_time_ = 0.0;                          ///< s, of their state and of the far lakes'
+  struct LakeBehind { std::size_t body; FarLake lake; };
+  std::vector<LakeBehind> far_lakes_;                ///< each behind one of the bodies
   std::vector<dem::BodyLoad> loads_, last_loads_;    ///< of the water: for the step under way; at the last pass
-  std::vector<std::int32_t> free_;                   ///< by body number
+  std::vector<std::int32_t> loaded_;                 ///< by body number: moves under the load of the water
   sph::FluidExtremes extremes_;
   double time_ = 0.0, last_dt_ = 0.0;
   double largest_move_ = 0.0;         ///< m, bound on what a particle moves in this step

@@ -5,8 +5,8 @@
 
 namespace gdesp {
 
-/// The walls as the guard of the water sees them: particles of free bodies have no say there (no normal), for what the guard
-/// does is not given back to a body.
+/// The walls as the guard of the water sees them: particles of bodies that move under the water's load have no say there (no
+/// normal), for what the guard does is not given back to a body.
 BoundaryTable guarding_walls(const SimulationInput& input);
 
 }  // namespace gdesp

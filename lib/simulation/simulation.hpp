@@ -24,6 +24,10 @@ struct Diagnostics {
   Vec3d grain_momentum;
   double body_kinetic = 0.0, body_potential = 0.0, body_elastic = 0.0;  ///< of free bodies and their contacts
   Vec3d body_momentum;
+  double far_lake_mass = 0.0, far_lake_kinetic = 0.0, far_lake_potential = 0.0;  ///< potential: from its bed
+  double far_lake_momentum = 0.0;     ///< along x
+  double far_lake_highest = 0.0;      ///< largest rise of a column over its depth at rest
+  std::int64_t far_lakes = 0;
   double largest_body_speed = 0.0;    ///< m/s, of any point of a free body
   std::int64_t free_bodies = 0;
   double largest_speed = 0.0;         ///< m/s, water
@@ -44,7 +48,7 @@ struct BodyPose {
   Vec3d centre, velocity, angular_velocity;
   double rotation[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   bool present = true;
-  Vec3d force, torque;                ///< N, N m about the centre: free bodies, of all but gravity; prescribed, of the water
+  Vec3d force, torque;                ///< N, N m about the centre: free bodies, of all but gravity; others, of the water
 };
 
 /// What every step leaves behind at no cost. SI units.
@@ -68,6 +72,7 @@ class Simulation {
   virtual BoundaryTable boundary() = 0;
   virtual GrainTable grains() = 0;
   virtual std::vector<BodyPose> bodies() = 0;
+  virtual std::vector<FarLakeTable> far_lakes() = 0;
   /// s, and what bound it: of the step just taken.
   virtual double last_time_step() const = 0;
   virtual std::string limited_by() const = 0;

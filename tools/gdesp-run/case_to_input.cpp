@@ -63,7 +63,7 @@ bool is_gate(const Scene& scene, const std::string& name) {
 
 void consider_motions(const Case& c, ExpectedSpeed& expected) {
   for (const Body& body : c.bodies) {
-    if (body.kind == BodyKind::free || is_gate(c.scene, body.name)) continue;
+    if (body.kind != BodyKind::prescribed || is_gate(c.scene, body.name)) continue;
     const PrescribedMotion& m = body.motion;
     for (std::size_t k = 1; k < m.time.size(); ++k)
       keep_larger(expected, norm(m.displacement[k] - m.displacement[k - 1]) / (m.time[k] - m.time[k - 1]),
@@ -73,8 +73,8 @@ void consider_motions(const Case& c, ExpectedSpeed& expected) {
 
 sph::ActivityParameters activity_parameters(const Case& c) {
   sph::ActivityParameters p;
-  // Walls beside sleeping water keep no pressure, and a free body floats on it.
-  p.sleep = c.scene.economy.sleep && std::none_of(c.bodies.begin(), c.bodies.end(), [](const Body& b) { return b.kind == BodyKind::free; });
+  // Walls beside sleeping water keep no pressure, and a body that moves under its load needs that.
+  p.sleep = c.scene.economy.sleep && std::all_of(c.bodies.begin(), c.bodies.end(), [](const Body& b) { return b.kind == BodyKind::prescribed; });
   p.wake_speed = c.scene.economy.wake_speed;
   p.near_walls = c.scene.economy.near_walls;
   if (!c.fluid.position.empty()) {

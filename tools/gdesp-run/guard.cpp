@@ -49,9 +49,9 @@ std::string moment_text(std::int64_t step, double time) {
 
 double EnergyWatch::rise(const Diagnostics& d) {
   if (lost_ >= 0 && d.step - step_ < least_steps) return rise_;
-  const double potential = d.fluid_potential + d.grain_potential + d.body_potential;
+  const double potential = d.fluid_potential + d.grain_potential + d.body_potential + d.far_lake_potential;
   const double sum = potential + d.fluid_kinetic + d.fluid_elastic + d.grain_kinetic + d.grain_elastic +
-                     d.body_kinetic + d.body_elastic;
+                     d.body_kinetic + d.body_elastic + d.far_lake_kinetic;
   const std::int64_t lost = d.lost_fluid + d.lost_grains;
   if (lost_ < 0) {
     start_ = sum - potential;
@@ -93,6 +93,11 @@ std::string Guard::in_wall_text(const Diagnostics& d) {
 std::string Guard::energy_text(const Diagnostics& d, double rise) {
   return moment_text(d.step, d.time) + "energy has risen by " + percent(rise) + " of what there was to spend (limit " +
          percent(energy_limit) + "), and nothing gave it: " + step_remedy;
+}
+
+std::string Guard::far_lake_text(const Diagnostics& d) {
+  return moment_text(d.step, d.time) + "the far lake rises by " + percent(d.far_lake_highest) + " of its depth (limit " + percent(far_lake_warning) +
+         "): such a wave would break, and columns do not: more of the lake has to be particles";
 }
 
 std::string Guard::lost_text(const Diagnostics& d) {

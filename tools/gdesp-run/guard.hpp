@@ -44,7 +44,7 @@ class EnergyWatch {
 };
 
 struct GuardSetup {
-  bool watches_energy = false;     ///< no body does work, no period along gravity
+  bool watches_energy = false;     ///< no body but far lakes does work, no period along gravity
   double spacing_energy = 0.0;     ///< m2/s2, g dp
 };
 
@@ -56,6 +56,7 @@ class Guard {
   static constexpr double overlap_warning = 0.01, overlap_limit = 0.3;   ///< of a diameter
   static constexpr double in_wall_warning = 1.0, in_wall_limit = 2.0;    ///< of a particle spacing
   static constexpr double energy_warning = 0.05, energy_limit = 0.5;    ///< of what there was to spend
+  static constexpr double far_lake_warning = 0.6;                        ///< of its depth
   static constexpr double step_limit = 1.0e-3;                           ///< of the acoustic step
 
   Guard() = default;
@@ -73,6 +74,7 @@ class Guard {
     if (d.largest_overlap > overlap_warning) tell(told_.overlap, warn, overlap_text(d));
     if (d.deepest_in_wall > in_wall_warning) tell(told_.in_wall, warn, in_wall_text(d));
     if (rise > energy_warning) tell(told_.energy, warn, energy_text(d, rise));
+    if (d.far_lake_highest > far_lake_warning) tell(told_.far_lake, warn, far_lake_text(d));
     if (d.lost_fluid + d.lost_grains > 0) tell(told_.lost, warn, lost_text(d));
     return std::nullopt;
   }
@@ -86,13 +88,14 @@ class Guard {
   static std::string overlap_text(const Diagnostics& d);
   static std::string in_wall_text(const Diagnostics& d);
   static std::string energy_text(const Diagnostics& d, double rise);
+  static std::string far_lake_text(const Diagnostics& d);
   static std::string lost_text(const Diagnostics& d);
   template <class Warn>
   static void tell(bool& told, const Warn& warn, const std::string& text) {
     if (!told) warn(text);
     told = true;
   }
-  struct Told { bool mach = false, density = false, overlap = false, in_wall = false, energy = false, lost = false; };
+  struct Told { bool mach = false, density = false, overlap = false, in_wall = false, energy = false, far_lake = false, lost = false; };
   GuardSetup setup_;
   EnergyWatch energy_;
   Told told_;

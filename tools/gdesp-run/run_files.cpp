@@ -49,7 +49,7 @@ void remove_parts(const fs::path& folder) {
 }  // namespace
 
 ordered_json diagnostics_record(const Diagnostics& d) {
-  return {{"t", d.time}, {"step", d.step}, {"dt", d.time_step}, {"limited_by", d.limited_by},
+  ordered_json record{{"t", d.time}, {"step", d.step}, {"dt", d.time_step}, {"limited_by", d.limited_by},
           {"fluid_mass", d.fluid_mass}, {"fluid_kinetic", d.fluid_kinetic}, {"fluid_potential", d.fluid_potential},
           {"fluid_elastic", d.fluid_elastic}, {"fluid_momentum", vector_json(d.fluid_momentum)},
           {"grain_mass", d.grain_mass}, {"grain_kinetic", d.grain_kinetic}, {"grain_potential", d.grain_potential},
@@ -61,6 +61,14 @@ ordered_json diagnostics_record(const Diagnostics& d) {
           {"deepest_in_wall", d.deepest_in_wall}, {"fluid_particles", d.fluid_particles}, {"grains", d.grains}, {"lost_fluid", d.lost_fluid},
           {"lost_grains", d.lost_grains}, {"rebuilds", d.rebuilds}, {"grain_substeps", d.grain_substeps},
           {"awake_share", d.awake_share}};
+  if (d.far_lakes > 0) {
+    record["far_lake_mass"] = d.far_lake_mass;
+    record["far_lake_kinetic"] = d.far_lake_kinetic;
+    record["far_lake_potential"] = d.far_lake_potential;
+    record["far_lake_momentum"] = d.far_lake_momentum;
+    record["far_lake_highest"] = d.far_lake_highest;
+  }
+  return record;
 }
 
 DiagnosticsLog::DiagnosticsLog(const std::string& run_folder, std::int64_t last_step, int recoveries)

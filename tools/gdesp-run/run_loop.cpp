@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run_loop.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -34,7 +35,8 @@ GuardSetup guard_setup(const Session& s) {
   const Scene& scene = s.scene_case.scene;
   GuardSetup setup;
   setup.spacing_energy = norm(scene.gravity) * scene.dp;
-  setup.watches_energy = s.scene_case.bodies.empty();
+  const std::vector<Body>& bodies = s.scene_case.bodies;
+  setup.watches_energy = std::all_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.kind == BodyKind::far_lake; });
   for (const std::string& axis : scene.periodic)
     if ((axis == "x" ? scene.gravity.x : scene.gravity.y) != 0.0) setup.watches_energy = false;  // it falls for ever
   return setup;

@@ -82,6 +82,22 @@ void describe_width(SceneSummary& s, const Scene& scene) {
     add(s, "  symmetry", false, 0.5, "mirrored about the middle of the tank: half of it, with its free-slip wall in the middle, gives the same answer");
 }
 
+/// Particles that the columns stand for.
+double far_particles(const FarLakeShape& lake, const sph::FluidParameters& p) {
+  return lake.length * lake.depth * lake.width / std::pow(p.dp, p.dimensions);
+}
+
+void describe_far_lakes(SceneSummary& s, const SimulationInput& in) {
+  for (const Body& body : in.bodies) {
+    if (body.kind != BodyKind::far_lake) continue;
+    const FarLakeShape& lake = body.far_lake;
+    const double columns = far_particles(lake, in.fluid_parameters), all = columns + static_cast<double>(in.fluid.position.size());
+    add(s, "  far lake", true, columns / all, std::to_string(lake.columns) + " columns, " + number_text(lake.length) + " m, behind " + body.name + ": in place of " +
+                                                  percent(columns / all) + " of the water; for waves longer than " + number_text(4.5 * lake.depth, 2) +
+                                                  " m that do not break");
+  }
+}
+
 void describe_contact_stiffness(SceneSummary& s, const SimulationInput& in, double speed, double grain_share) {
   const ContactSoftness c = contact_softness(in, speed);
   const bool hertz = in.contact.law == dem::ContactLawKind::hertz;
@@ -215,6 +231,7 @@ void describe_economies(SceneSummary& s, const Scene& scene, const SimulationInp
     add(s, "  still water", sleeps, 1.0 - reach.steps,
         std::string(sleeps ? "sleeps until disturbed" : "could sleep (economy.sleep = true; steep waves lose some percent, docs/economy.md)") +
             ": waves reach " + percent(reach.particles) + " of the water until the end, " + percent(reach.steps) + " of all particle steps");
+  describe_far_lakes(s, in);
   if (!in.boundary.position.empty())
     add(s, "  walls", in.fluid_parameters.activity.near_walls, 0.0,
         std::to_string(beside) + " of " + std::to_string(in.boundary.position.size()) + " particles lie beside water at the start; " +

@@ -108,12 +108,12 @@ void describe_grains(SceneSummary& s, const Scene& scene, const SimulationInput&
 }
 
 void describe_bodies(SceneSummary& s, const SimulationInput& in) {
-  const auto free = static_cast<std::size_t>(
-      std::count_if(in.bodies.begin(), in.bodies.end(), [](const Body& b) { return b.kind == BodyKind::free; }));
-  const std::size_t prescribed = in.bodies.size() - free;
+  const auto count = [&](BodyKind kind) { return std::count_if(in.bodies.begin(), in.bodies.end(), [kind](const Body& b) { return b.kind == kind; }); };
+  const auto free = count(BodyKind::free), prescribed = count(BodyKind::prescribed);
   model(s, "rigid bodies", !in.bodies.empty(),
         in.bodies.empty() ? "the case has none"
-                          : std::to_string(free) + " free, " + std::to_string(prescribed) + " with prescribed motion");
+                          : std::to_string(free) + " free, " + std::to_string(prescribed) + " with prescribed motion" +
+                                (count(BodyKind::far_lake) > 0 ? ", " + std::to_string(count(BodyKind::far_lake)) + " moved by a far lake" : ""));
 }
 
 /// s, of the smallest grain; in the plane grains are rods, and their contacts are linear.

@@ -89,6 +89,7 @@ Frame frame_of(Session& s) {
   const auto poses = simulation.bodies();
   frame.bodies = moving_surfaces(s.scene_case.walls, bodies, poses, frame.time);
   frame.body_states = body_states(bodies, poses, frame.time);
+  frame.far_lakes = simulation.far_lakes();
   return frame;
 }
 

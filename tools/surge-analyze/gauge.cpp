@@ -13,7 +13,8 @@ int run_gauge(const std::vector<std::string>& arguments) {
   own.add_options()("threshold", po::value<double>()->value_name("M")->default_value(0.0, "dp/2"), "departure that counts as arrival");
   CommandLine line("gauge", own);
   const char* definition =
-      "Level: the free surface over the gauge (see profile --help), connected water; rise: above its first reading.\n"
+      "Level: the free surface over the gauge (see profile --help), connected water; rise: above its first reading;\n"
+      "in a far lake the level of its columns (no pressure).\n"
       "Pressure (gauges with Z): mean of the particles' pressure weighted with W within 2.6 dp, each value carried\n"
       "hydrostatically to the gauge's height; 0 where no water touches the gauge. Arrival: first departure of the level from\n"
       "its first reading by the threshold, linear between frames; at a dry gauge the first frame with water. Weighted means of\n"

@@ -52,6 +52,24 @@ Frame block(double t, double length, double height, double dp) {
   return f;
 }
 
+TEST(GaugeMeasurement, LevelInAFarLakeIsThatOfItsColumns) {
+  const double dp = 0.1;
+  Frame frame = block(0, 2.0, 1.0, dp);
+  frame.far_lakes = {{{2.5, 3.5, 4.5}, {1.2, 1.4, 1.0}, {0, 0, 0}}, {{-0.5, -1.5}, {0.9, 0.7}, {0, 0}}};
+  GaugeOptions options;
+  options.gauges = {{"water", {1001, 2001, 0}, false}, {"first", {1002.1, 2001, 0}, false}, {"between", {1003.25, 2001, 0}, false},
+                    {"last", {1004.9, 2001, 0}, false}, {"behind", {1005.1, 2001, 0}, false}, {"other side", {999.0, 2001, 0}, false}};
+  GaugeMeasurement m(options);
+  const Table t = run(m, tank(dp), {frame});
+  const std::vector<double> level = t.numbers("level");
+  EXPECT_NEAR(level[0], 501.0, 0.5 * dp);
+  EXPECT_NEAR(level[1], 501.2, 1e-12);
+  EXPECT_NEAR(level[2], 501.35, 1e-12);
+  EXPECT_NEAR(level[3], 501.0, 1e-12);
+  EXPECT_TRUE(std::isnan(level[4]));
+  EXPECT_NEAR(level[5], 500.8, 1e-12);
+}
+
 TEST(GaugeMeasurement, LevelPressureAndArrivalInSceneCoordinates) {
   const double dp = 0.1;
   GaugeOptions options;

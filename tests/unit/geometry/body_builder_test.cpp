@@ -39,6 +39,45 @@ TEST(FreeBody, TwoDimensionsArePerMetreOfWidth) {
   EXPECT_NEAR(b.inertia[4], 1000.0 * (1 + 4) / 12.0, 1e-9);
 }
 
+FluidTable water_block(const Vec3d& low, const Vec3d& high, double dp) {
+  FluidTable water;
+  for (double x = low.x + 0.5 * dp; x < high.x; x += dp)
+    for (double y = low.y + 0.5 * dp; y < high.y; y += dp)
+      for (double z = low.z + 0.5 * dp; z < high.z; z += dp) water.position.push_back({x, y, z});
+  return water;
+}
+
+TEST(FarLake, TakesWidthAndBedFromTheWaterAtThePiston) {
+  const double dp = 0.1;
+  MovingBody piston;
+  piston.name = "far";
+  piston.far_lake.length = 20.0;
+  piston.far_lake.depth = 1.0;
+  const FluidTable water = water_block({0, -1, 2}, {3, 1, 3}, dp);
+  const Box right{{3, -2, 0}, {3.5, 2, 5}}, left{{-0.5, -2, 0}, {0, 2, 5}}, apart{{3.3, -2, 0}, {3.8, 2, 5}};
+  const FarLakeShape lake = far_lake_behind(piston, right, water, dp, 3);
+  EXPECT_EQ(lake.columns, 100);
+  EXPECT_EQ(lake.side, 1.0);
+  EXPECT_EQ(lake.wall, 3.0);
+  EXPECT_NEAR(lake.width, 2.0, 1e-9);
+  EXPECT_NEAR(lake.level, 3.0, 1e-9);
+  EXPECT_EQ(moving_body(piston, 9.81).kind, BodyKind::far_lake);
+  EXPECT_MENTIONS(input_error([&] { far_lake_behind(piston, left, water, dp, 3); }), "no water touches");
+  EXPECT_MENTIONS(input_error([&] { far_lake_behind(piston, apart, water, dp, 3); }), "no water touches");
+  piston.far_lake.side = "x-";
+  piston.far_lake.columns = 7;
+  EXPECT_EQ(far_lake_behind(piston, left, water, dp, 3).wall, 0.0);
+  EXPECT_EQ(far_lake_behind(piston, left, water, dp, 3).side, -1.0);
+  EXPECT_EQ(far_lake_behind(piston, left, water, dp, 3).columns, 7);
+  piston.far_lake.depth = 1.2;
+  EXPECT_MENTIONS(input_error([&] { far_lake_behind(piston, left, water, dp, 3); }), "is 1.000000 m deep");
+  piston.far_lake.depth = 1.0;
+  FluidTable valley;
+  for (const Vec3d& r : water.position)
+    if (r.z - 2.0 > 0.5 * std::abs(r.y)) valley.position.push_back(r);
+  EXPECT_MENTIONS(input_error([&] { far_lake_behind(piston, left, valley, dp, 3); }), "no rectangle");
+}
+
 TEST(Motion, ConstantVelocityBetweenStartAndStop) {
   const PrescribedMotion m = constant_motion({0, 0, 0.68}, 0.1, 0.6);
   ASSERT_EQ(m.time.size(), 2u);

@@ -124,6 +124,28 @@ TEST_F(CaseTest, bodies_come_back) {
   for (int i = 0; i < 9; ++i) EXPECT_EQ(b.inertia[i], box().inertia[i]);
 }
 
+TEST_F(CaseTest, a_far_lake_comes_back) {
+  Case c = some_case();
+  c.bodies[0].kind = BodyKind::far_lake;
+  c.bodies[0].motion = {};
+  c.bodies[0].far_lake = {80.0, 1.25, 3.0, 400, -1.0, 7.5, 0.1};
+  write_case(path, c, false);
+  const Body b = read_case(path).bodies[0];
+  EXPECT_EQ(b.kind, BodyKind::far_lake);
+  EXPECT_EQ(b.far_lake.length, 80.0);
+  EXPECT_EQ(b.far_lake.depth, 1.25);
+  EXPECT_EQ(b.far_lake.width, 3.0);
+  EXPECT_EQ(b.far_lake.columns, 400);
+  EXPECT_EQ(b.far_lake.side, -1.0);
+  EXPECT_EQ(b.far_lake.wall, 7.5);
+  EXPECT_EQ(b.far_lake.level, 0.1);
+  edit("columns = 400", "columns = 1");
+  refused({"case.body.0.far_lake.columns", "from 2"});
+  edit("columns = 1", "columns = 2");
+  edit("depth = 1.25", "depth = 0.0");
+  refused({"case.body.0.far_lake.depth", "above 0"});
+}
+
 TEST_F(CaseTest, case_without_grains_and_walls) {
   Case c = some_case();
   c.grains = {};

@@ -65,6 +65,27 @@ TEST_F(FramesTest, are_listed_in_time_order_while_the_run_goes_on) {
   }
 }
 
+TEST_F(FramesTest, far_lakes_come_back) {
+  FrameWriter out = writer();
+  Frame frame = some_frame(0.0, 0);
+  out.write(frame);
+  frame.time = 0.5;
+  frame.far_lakes = {{{1.0, 2.0}, {0.5, 0.25}, {0.1, -0.1}}, {{-3.0}, {0.75}, {0.0}}};
+  out.write(frame);
+  const std::vector<FramePaths> frames = list_frames(run);
+  Frame none, back;
+  read_bodies_frame(frames[0].bodies, none);
+  read_bodies_frame(frames[1].bodies, back);
+  EXPECT_TRUE(none.far_lakes.empty());
+  EXPECT_EQ(back.bodies.triangle.size(), frame.bodies.triangle.size());
+  ASSERT_EQ(back.far_lakes.size(), 2u);
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_EQ(back.far_lakes[k].x, frame.far_lakes[k].x);
+    EXPECT_EQ(back.far_lakes[k].level, frame.far_lakes[k].level);
+    EXPECT_EQ(back.far_lakes[k].velocity, frame.far_lakes[k].velocity);
+  }
+}
+
 TEST_F(FramesTest, parts_may_be_missing) {
   FrameWriter out = writer();
   Frame frame = some_frame(0.0, 0);

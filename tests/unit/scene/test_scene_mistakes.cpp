@@ -125,6 +125,27 @@ TEST_F(SceneMistakes, keys_that_do_not_go_together) {
   EXPECT_TRUE(mentions(refusal(dp + "[domain]\nlower = [0,0,0]\n"), {"domain", "upper is missing"}));
 }
 
+TEST_F(SceneMistakes, far_lake) {
+  const std::string box = "box = {lower = [0,0,0], upper = [1,1,1]}\n", piston = dp + "[[piston]]\n", lake = "far_lake = {length = 80, depth = 1}\n";
+  const Scene scene = read(piston + box + "far_lake = {length = 80, depth = 1, columns = 50, side = \"x-\"}\n");
+  EXPECT_EQ(scene.moving[0].far_lake.length, 80.0);
+  EXPECT_EQ(scene.moving[0].far_lake.columns, 50u);
+  EXPECT_EQ(scene.moving[0].far_lake.side, "x-");
+  EXPECT_EQ(read(scene_to_toml(scene)).moving[0].far_lake.depth, 1.0);
+  EXPECT_EQ(read(scene_to_toml(read(piston + box))).moving[0].far_lake.length, 0.0);
+  EXPECT_TRUE(mentions(refusal(piston + box + "far_lake = {length = 80}\n"), {"lake.toml:5", "piston.0.far_lake", "depth > 0"}));
+  EXPECT_TRUE(mentions(refusal(piston + box + "far_lake = {length = 80, depth = 1, columns = 1}\n"), {"piston.0.far_lake.columns", "at least 2"}));
+  EXPECT_TRUE(mentions(refusal(piston + box + "far_lake = {length = -80, depth = 1}\n"), {"piston.0.far_lake.length", "at least 0"}));
+  EXPECT_TRUE(mentions(refusal(piston + box + "far_lake = {lenght = 80, depth = 1}\n"), {"did you mean", "length"}));
+  EXPECT_TRUE(mentions(refusal(piston + box + lake + "velocity = [1,0,0]\n"), {"piston.0", "no wave, velocity"}));
+  EXPECT_TRUE(mentions(refusal(piston + box + lake + "wave = {kind = \"solitary\", height = 0.1, depth = 1}\n"), {"piston.0", "no wave, velocity"}));
+  EXPECT_TRUE(mentions(refusal("gravity = [1, 0, -9.81]\n" + piston + box + lake), {"gravity along -z"}));
+  EXPECT_TRUE(mentions(refusal(piston + box + lake + "[domain]\nperiodic = [\"x\"]\n"), {"periodic along x"}));
+  folder.write("a.stl", "x");
+  EXPECT_TRUE(mentions(refusal(piston + lake + "mesh = \"a.stl\"\n"), {"piston.0", "a box"}));
+  EXPECT_TRUE(mentions(refusal(dp + "[[gate]]\n" + box + lake), {"unknown key", "far_lake"}));
+}
+
 TEST_F(SceneMistakes, names) {
   const std::string g = "[[gauge]]\nat = [0, 0]\nname = ";
   EXPECT_TRUE(mentions(refusal(dp + g + "\"a\"\n" + g + "\"a\"\n"), {"lake.toml:8", "gauge.1.name", "used twice"}));
