@@ -18,7 +18,7 @@ class FramesTest : public ::testing::Test {
     f.fluid = some_fluid(20);
     f.grains = some_grains(10);
     f.bodies = some_triangles();
-    f.body_states = {{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {0.5, 0.5, -0.5, 0.5}}, {{-1, 0, 1e6}, {}, {}, {1, 0, 0, 0}}};
+    f.body_states = {{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {0.5, 0.5, -0.5, 0.5}, {}, {}}, {{-1, 0, 1e6}, {}, {}, {1, 0, 0, 0}, {}, {}}};
     return f;
   }
   FrameWriter writer(bool force = false, bool resume = false) { return {run, {5e5, 5e6, 1}, 0.25, force, resume}; }
