@@ -306,7 +306,7 @@ TEST_F(CaseTest, edited_case_table_is_refused) {
   edited("still_water_level = ", "still_water_level = nan #", {"case.still_water_level", "finite"});
   edited("fluid = 100", "fluid = 99999999999999", {"fluid.vtp", "holds 100", "99999999999999"});
   edited("fluid = 100", "fluid = -1", {"case.counts.fluid"});
-  edited("kind = \"free\"", "kind = \"frei\"", {"case.body.1.kind", "\"free\" or \"prescribed\""});
+  edited("kind = \"free\"", "kind = \"frei\"", {"case.body.1.kind", "\"free\", \"prescribed\" or \"far-lake\""});
   edited("[case]", "[cose]", {"cose", "unknown key"});
 }
 
