@@ -22,7 +22,49 @@ bool BankRegion::contains(double x, double y) const {
 
 namespace {
 
-std::vector<BankParticle> find_bank_particles(const ColumnGrid& grid, const ConnectedWater& water, const BankContact& at,
+template <class Visit>
+void visit_near(const ColumnGrid& grid, std::size_t s, double distance, const Visit& visit) {
+  const Vec3d p = grid.position(s);
+  grid.for_each(p.x, p.y, p.z - distance, p.z + distance, [&](std::size_t t, double r2) {
+    const double dz = grid.position(t).z - p.z;
+    if (t != s && r2 + dz * dz < distance * distance) visit(t);
+  });
+}
+
+/// Whether particle s lies on a wall with no other water over it.
+bool is_single_layer(const ColumnGrid& grid, std::size_t s, double dp, const WallSurface& walls) {
+  if (!walls.distance(grid.position(s), dp)) return false;
+  bool single = true;
+  visit_near(grid, s, 1.5 * dp, [&](std::size_t t) { single = single && walls.distance(grid.position(t), dp).has_value(); });
+  return single;
+}
+
+/// Per slot: the water that counts, the main body and the film that its edge has thinned to (run_up.hpp).
+std::vector<std::uint8_t> main_body_and_film(const ColumnGrid& grid, const ConnectedWater& water, const BankContact& at, const WallSurface& walls) {
+  std::vector<std::uint8_t> counts(grid.size());
+  std::vector<std::size_t> edge;
+  for (std::size_t s = 0; s < grid.size(); ++s) counts[s] = water.main[grid.index(s)];
+  if (walls.empty()) return counts;
+  const auto is_above = [&](std::size_t s) { return grid.position(s).z + 0.5 * at.dp > at.still_water_level; };
+  for (std::size_t s = 0; s < grid.size(); ++s) {
+    if (!counts[s] && is_above(s) && is_single_layer(grid, s, at.dp, walls)) edge.push_back(s);
+  }
+  const int needed = grid.dimensions() == 2 ? 1 : 3;
+  for (std::size_t before = edge.size() + 1; before > edge.size();) {
+    before = edge.size();
+    std::vector<std::size_t> joined;   // all that join in this round, so that their order is without effect
+    std::erase_if(edge, [&](std::size_t s) {
+      int neighbours = 0;
+      visit_near(grid, s, at.contact, [&](std::size_t t) { neighbours += counts[t]; });
+      if (neighbours >= needed) joined.push_back(s);
+      return neighbours >= needed;
+    });
+    for (const std::size_t s : joined) counts[s] = 1;
+  }
+  return counts;
+}
+
+std::vector<BankParticle> find_bank_particles(const ColumnGrid& grid, const std::vector<std::uint8_t>& counts, const BankContact& at,
                                               const WallSurface& walls) {
   std::vector<BankParticle> result;
 #pragma omp parallel
@@ -32,7 +74,7 @@ std::vector<BankParticle> find_bank_particles(const ColumnGrid& grid, const Conn
     for (std::size_t s = 0; s < grid.size(); ++s) {
       const Vec3d& p = grid.position(s);
       const double height = p.z + 0.5 * at.dp - at.still_water_level;
-      if (height <= 0.0 || !water.main[grid.index(s)]) continue;
+      if (height <= 0.0 || !counts[s]) continue;
       if (!walls.empty() && !walls.distance(p, at.contact)) continue;
       mine.push_back({p, height});
     }
@@ -51,7 +93,8 @@ std::vector<BankParticle> find_bank_particles(const ColumnGrid& grid, const Conn
 RunUpFrame measure_run_up(const ColumnGrid& grid, const ConnectedWater& water, const BankContact& at, const WallSurface& walls,
                           std::span<const BankRegion> regions) {
   RunUpFrame frame;
-  frame.on_bank = find_bank_particles(grid, water, at, walls);
+  const std::vector<std::uint8_t> counts = main_body_and_film(grid, water, at, walls);
+  frame.on_bank = find_bank_particles(grid, counts, at, walls);
   frame.region.resize(regions.size());
   for (std::size_t k = 0; k < regions.size(); ++k) {
     for (const BankParticle& p : frame.on_bank) {  // highest first
@@ -63,7 +106,7 @@ RunUpFrame measure_run_up(const ColumnGrid& grid, const ConnectedWater& water, c
     }
   }
   for (std::size_t s = 0; s < grid.size(); ++s) {
-    if (water.main[grid.index(s)]) continue;
+    if (counts[s]) continue;
     const Vec3d& p = grid.position(s);
     for (std::size_t k = 0; k < regions.size(); ++k) {
       const double height = p.z + 0.5 * at.dp - at.still_water_level;

@@ -71,6 +71,15 @@ bool in_tank_wall(const SceneParts& parts, const Vec3d& p, double dp) {
   return any;
 }
 
+bool belongs_to_tank(const BandPoint& b, const SceneParts& parts, const Lattice& lattice) {
+  const bool face = b.material >= 2 && parts.walls[static_cast<std::size_t>(b.material) - 2].kind == WallPart::Kind::tank;
+  return face || in_tank_wall(parts, lattice.point(b.at), lattice.dp);
+}
+
+bool is_no_slip(const SceneParts& parts, std::int32_t material) {
+  return material >= 2 ? parts.walls[static_cast<std::size_t>(material) - 2].no_slip : parts.terrain_no_slip;
+}
+
 void add_box_body(const SolidPart& body, std::int32_t number, const Lattice& lattice, const bool (&endless)[3], BoundaryTable& out) {
   const Box& box = *body.box;
   int n[3];
@@ -115,13 +124,16 @@ void add_tank_layers(const SceneParts& parts, const Lattice& lattice, BoundaryTa
 
 void add_band_layers(const std::vector<BandPoint>& band, const SceneParts& parts, const Lattice& lattice, BoundaryTable& out) {
   for (const auto& b : band) {
-    if (b.distance > 0.0f || -b.distance > boundary_layer_count * lattice.dp) continue;
-    const bool tank_face = b.material >= 2 && parts.walls[static_cast<std::size_t>(b.material) - 2].kind == WallPart::Kind::tank;
-    const Vec3d p = lattice.point(b.at);
-    if (tank_face || in_tank_wall(parts, p, lattice.dp)) continue;
-    const bool no_slip = b.material >= 2 ? parts.walls[static_cast<std::size_t>(b.material) - 2].no_slip : parts.terrain_no_slip;
-    add(out, p, static_cast<Vec3d>(b.normal), std::max<double>(-b.distance, least_depth * lattice.dp), 0, no_slip);
+    if (b.distance > 0.0f || -b.distance > boundary_layer_count * lattice.dp || belongs_to_tank(b, parts, lattice)) continue;
+    add(out, lattice.point(b.at), static_cast<Vec3d>(b.normal), std::max<double>(-b.distance, least_depth * lattice.dp), 0, is_no_slip(parts, b.material));
   }
+}
+
+void add_fitted_layers(const std::vector<BandPoint>& band, const SceneParts& parts, LayerRequest request, BoundaryTable& out) {
+  std::vector<BandPoint> own;
+  std::copy_if(band.begin(), band.end(), std::back_inserter(own), [&](const BandPoint& b) { return !belongs_to_tank(b, parts, request.lattice); });
+  request.others = out.position;
+  for (const auto& p : fit_layers(own, request)) add(out, p.position, p.normal, p.depth, 0, is_no_slip(parts, p.material));
 }
 
 void add_body_layers(const SolidPart& body, std::int32_t number, const Lattice& lattice, const bool (&endless)[3], BoundaryTable& out) {

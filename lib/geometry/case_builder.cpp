@@ -8,9 +8,11 @@
 #include "core/error.hpp"
 #include "geometry/body_builder.hpp"
 #include "geometry/checksum.hpp"
+#include "geometry/fitted_layers.hpp"
 #include "geometry/slide_builder.hpp"
 #include "geometry/thin_walls.hpp"
 #include "geometry/water_reach.hpp"
+#include "geometry/water_relaxation.hpp"
 #include "scene/formula.hpp"
 
 namespace gdesp::geometry {
@@ -70,7 +72,8 @@ void keep_reachable(std::vector<BandPoint>& band, const FillSpace& space, const 
   });
 }
 
-std::vector<BandPoint> wall_band(const Layout& layout, const WallSurfaces& surfaces, const FillSpace& space, const ColumnIntervals& walls, const std::string& vdb_path) {
+std::vector<BandPoint> wall_band(const Layout& layout, const WallSurfaces& surfaces, const FillSpace& space, const ColumnIntervals& walls, double half_width,
+                                 const std::string& vdb_path) {
   BandRequest request;
   request.lattice = layout.lattice;
   request.columns = space.columns;
@@ -80,7 +83,7 @@ std::vector<BandPoint> wall_band(const Layout& layout, const WallSurfaces& surfa
     request.lower[a] = flat ? 0 : layout.lattice.first_at_or_above(a, layout.domain.lower[a]);
     request.upper[a] = flat ? 0 : layout.lattice.last_at_or_below(a, layout.domain.upper[a]);
   }
-  request.half_width = boundary_layer_count;
+  request.half_width = half_width;
   return signed_distance_band(surfaces, request, vdb_path, layout.offset);
 }
 
@@ -135,8 +138,6 @@ void fill_fluid(const Layout& layout, const FillSpace& space, Case& out, BuildRe
     }
     report.fills.push_back(fill);
   }
-  thin_to_pores(out.fluid.position, porous_regions(layout, space), space);
-  set_start_velocity(layout, out);
   out.still_water_level = out.fluid.position.empty() ? layout.domain.lower.z : level;
 }
 
@@ -151,6 +152,36 @@ void warn_of_thin_walls(const Layout& layout, const FillSpace& space, const Colu
                 thin->thickness, thin->thickness / dp, static_cast<double>(thin->places) * dp, thin->at.x + layout.offset.x, thin->at.y + layout.offset.y,
                 thin->at.z + layout.offset.z, least_wall_spacings, thin->thickness / least_wall_spacings);
   report.notes.warnings.push_back(text);
+}
+
+/// The lattice column nearest to p, or (i, j) beside it; the nearest one where there are no more.
+std::size_t column_of(const FillSpace& space, const Vec3d& p, int i, int j) {
+  const ColumnGrid& grid = space.columns.grid;
+  const auto along = [&](double x, double x0, int n, int more) { return std::clamp(static_cast<int>(std::lround((x - x0) / grid.spacing)) + more, 0, n - 1); };
+  return grid.index(along(p.x, grid.x0, grid.nx, i), along(p.y, grid.y0, grid.ny, j));
+}
+
+/// Highest water of each lattice column (m); -1e300: none.
+std::vector<double> column_tops(const FillSpace& space, const std::vector<Vec3d>& water) {
+  std::vector<double> top(space.columns.grid.count(), -1e300);
+  for (const Vec3d& p : water) {
+    const std::size_t c = column_of(space, p, 0, 0);
+    top[c] = std::max(top[c], p.z);
+  }
+  return top;
+}
+
+/// Hydrostatic pressure (Pa) of water that has left its lattice column, under the highest water there was in the column where it is now, or
+/// beside it.
+void set_start_pressure(const Layout& layout, const FillSpace& space, const std::vector<double>& top, FluidTable& fluid) {
+  const double half = 0.5 * layout.lattice.dp, weight = -layout.scene.gravity.z * layout.scene.fluid.density;
+  for (const Vec3d& p : fluid.position) {
+    double level = top[column_of(space, p, 0, 0)];
+    for (int i = -1; i <= 1 && level < p.z - half; ++i) {
+      for (int j = -1; j <= 1; ++j) level = std::max(level, top[column_of(space, p, i, j)]);
+    }
+    fluid.pressure.push_back(static_cast<float>(weight * std::max(0.0, level + half - p.z)));
+  }
 }
 
 void add_body(const Layout& layout, const SolidPart& part, Body body, Case& out) {
@@ -264,14 +295,30 @@ Case build_case(const Scene& scene, BuildReport& report, const std::string& vdb_
   warn_of_thin_walls(layout, space, walls, out.fluid.position, report);
   stages.begin("placing walls");
   const std::optional<WaterReach> reach = wanted_walls(layout, space, walls, out.fluid.position, report);
-  std::vector<BandPoint> band = wall_band(layout, reach ? within_reach(layout.walls, *reach, space) : layout.walls, space, walls, vdb_path);
+  const WallSurfaces surfaces = reach ? within_reach(layout.walls, *reach, space) : layout.walls;
+  const bool fitted = scene.numerics.wall_layers == "fitted";
+  std::vector<BandPoint> band = wall_band(layout, surfaces, space, walls, fitted ? fitted_band : boundary_layer_count, vdb_path);
   if (reach) keep_reachable(band, space, *reach);
   report.band_voxels = band.size();
   add_tank_layers(layout.parts, layout.lattice, out.boundary);
-  add_band_layers(band, layout.parts, layout.lattice, out.boundary);
+  const std::size_t first = out.boundary.position.size();
+  if (fitted) {
+    LayerRequest request{&surfaces.mesh, layout.lattice, layout.domain, {}, {}, 0.0};
+    if (scene.dimensions == 3) request.wet = out.fluid.position, request.wet_reach = (2.0 * scene.numerics.smoothing_ratio + 1.5) * scene.dp;
+    add_fitted_layers(band, layout.parts, std::move(request), out.boundary);
+  } else {
+    add_band_layers(band, layout.parts, layout.lattice, out.boundary);
+  }
+  const std::size_t last = out.boundary.position.size();
   add_walls(layout, out);
   stages.begin("placing bodies and slides");
   add_bodies_and_slides(layout, out, report, scope);
+  const std::vector<double> top = column_tops(space, out.fluid.position);
+  const bool moves = fitted && first < last && scene.dimensions == 2;
+  if (moves) relax_water(out.fluid.position, out.boundary, first, last, space, scene.numerics.smoothing_ratio * scene.dp);
+  thin_to_pores(out.fluid.position, porous_regions(layout, space), space);
+  if (moves) set_start_pressure(layout, space, top, out.fluid);
+  set_start_velocity(layout, out);
   const Box ground = bounds(layout.parts.terrain), all = bounds(layout.parts);
   out.terrain_top = is_empty(ground) ? (is_empty(all) ? 0.0 : all.upper.z) : ground.upper.z;
   grow_domain(out, scene.dp);

@@ -5,7 +5,7 @@
 //   dam     column 0.1 m x 0.2 m in a tank; speed (of the column at the start), offset (of all coordinates), open=1 (no right wall)
 //   still   water 0.1 m deep over a sawtooth bed; tooth (height)
 //   patch   square of water that rotates, no gravity; spin (rad/s)
-//   sheet   layer of water on a plane slope; layers, angle (degrees)
+//   sheet   layer of water on a plane slope; layers, angle (degrees), fitted=1 (wall particles in layers along the slope)
 //   wet     block of grains in still water, three dimensions; density, diameter, real_diameter
 //   pores   a bed of discs under water; gap (spacing over diameter)
 //   settle  one grain in a deep tank, three dimensions; diameter, density
@@ -24,6 +24,7 @@
 
 #include "../support/surfaces.hpp"
 #include "core/error.hpp"
+#include "geometry/fitted_layers.hpp"
 #include "io/case.hpp"
 
 namespace {
@@ -218,7 +219,10 @@ struct Maker {
     const Vec3d along{std::cos(angle), 0, -std::sin(angle)}, up{std::sin(angle), 0, std::cos(angle)};
     const double top = length * std::sin(angle);
     const auto distance = [=](const Vec3d& r) { return dot(r - Vec3d{0, 0, top}, up); };
-    solid({-4 * dp, 0, -0.2}, {length * std::cos(angle), 0, top + 4 * dp}, distance);
+    if (set.get("fitted", 0) != 0)
+      fit_to_slope(up, along, top);
+    else
+      solid({-4 * dp, 0, -0.2}, {length * std::cos(angle), 0, top + 4 * dp}, distance);
     // The sheet lies on its own lattice, along the slope.
     const Vec3d corner = Vec3d{0, 0, top} + along * 0.2;
     for (int i = 0; i < static_cast<int>(std::lround(0.3 / dp)); ++i)
@@ -227,6 +231,29 @@ struct Maker {
     domain({-5 * dp, -dp, -0.3}, {length, dp, top + 0.3});
     c.scene.numerics.expected_speed = 9.81 * std::sin(angle) * 0.6;
     end(0.6, 6);
+  }
+
+  void fit_to_slope(const Vec3d& up, const Vec3d& along, double top) {
+    const Vec3d upper = Vec3d{0, 0, top} - along, lower = Vec3d{0, 0, top} + along * 4.0, side{0, 1, 0};
+    geometry::TriangleMesh slope;
+    slope.vertex = {upper - side, upper + side, lower - side, lower + side};
+    slope.triangle = {{0, 2, 1}, {2, 3, 1}};
+    const geometry::Lattice lattice{{0, -0.5 * dp, 0}, dp, 2};
+    std::vector<geometry::BandPoint> band;
+    const auto last = [&](double a) { return static_cast<std::int32_t>(a / dp); };
+    for (std::int32_t i = -4; i < last(2.4 * along.x); ++i) {
+      for (std::int32_t k = last(-0.2); k < last(top) + 4; ++k) {
+        const double s = dot(lattice.point({i, 0, k}) - Vec3d{0, 0, top}, up);
+        if (std::abs(s) < geometry::fitted_band * dp) band.push_back({{i, 0, k}, static_cast<float>(s), static_cast<Vec3f>(up), 0});
+      }
+    }
+    for (const auto& p : geometry::fit_layers(band, {&slope, lattice, {{-1, -1, -1}, {9, 1, 9}}, {}, {}, 0.0})) {
+      c.boundary.position.push_back(p.position);
+      c.boundary.normal.push_back(static_cast<Vec3f>(p.normal));
+      c.boundary.depth.push_back(static_cast<float>(p.depth));
+      c.boundary.friction.push_back(0.0f);
+      c.boundary.body.push_back(0);
+    }
   }
 
   /// A tank in three dimensions, open at the top.

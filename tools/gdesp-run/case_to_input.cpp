@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "sph/tait.hpp"
 
 namespace gdesp::tool {
 namespace {
@@ -114,6 +115,14 @@ sph::FluidParameters fluid_parameters(const Case& c) {
   return p;
 }
 
+/// Water that brings pressures (Pa) and no densities starts at the densities of these.
+void set_density(FluidTable& fluid, const sph::FluidParameters& p) {
+  if (fluid.pressure.empty() || !fluid.density.empty()) return;
+  const double stiffness = p.reference_density * p.sound_speed * p.sound_speed;
+  for (const float pressure : fluid.pressure)
+    fluid.density.push_back(static_cast<float>(p.reference_density * (1.0 + sph::tait_density(static_cast<float>(pressure / stiffness)))));
+}
+
 CouplingParameters coupling_parameters(const Scene& s) {
   CouplingParameters p;
   p.enabled = s.coupling.enabled;
@@ -209,6 +218,7 @@ SimulationInput case_to_input(Case& c) {
   input.time = time_parameters(c.scene.numerics);
   for (const Slide& slide : c.scene.slides) input.release_time.push_back(slide.release_at);
   input.fluid = std::move(c.fluid);
+  set_density(input.fluid, input.fluid_parameters);
   input.boundary = std::move(c.boundary);
   input.grains = std::move(c.grains);
   input.walls = c.walls;

@@ -53,6 +53,19 @@ TEST(RunUp, ATongueOnTheBeachIsReadToOneParticle) {
   EXPECT_NEAR(f.region[0].at.x, 8.0, 2 * dp);
 }
 
+// The last row of the tongue thinned to a film: single particles on the beach, two spacings apart. A drop farther on is splash.
+TEST(RunUp, AFilmThinnerThanAParticleIsFollowed) {
+  auto p = water_up_to(1.0, 8.0, 0.25);
+  for (const double x : {8.15, 8.35, 8.55, 9.4}) {
+    for (double y = 0.5 * dp; y < 2.0; y += dp) {
+      if (x < 9.0 || std::abs(y - 1.0) < dp) p.push_back({x, y, bed(x) + 0.03});
+    }
+  }
+  const RunUpFrame f = read(p, beach(), anywhere);
+  EXPECT_NEAR(f.region[0].height, bed(8.55) + 0.03 + 0.5 * dp - 1.0, 1e-9);
+  EXPECT_NEAR(f.region[0].splash, bed(9.4) + 0.03 + 0.5 * dp - 1.0, 1e-9);
+}
+
 TEST(RunUp, SplashOnTheBankAndAWaveInTheMiddleDoNotCount) {
   auto p = water_up_to(1.0, 0.0, 0.0);
   const auto crest = fill({1, 0, 1}, {2, 2, 1.8}, dp, 3, [](const Vec3d&) { return true; });  // away from any wall
