@@ -296,7 +296,8 @@ Case build_case(const Scene& scene, BuildReport& report, const std::string& vdb_
   stages.begin("placing walls");
   const std::optional<WaterReach> reach = wanted_walls(layout, space, walls, out.fluid.position, report);
   const WallSurfaces surfaces = reach ? within_reach(layout.walls, *reach, space) : layout.walls;
-  const bool fitted = scene.numerics.wall_layers == "fitted";
+  const bool fitted = scene.numerics.wall_layers != "lattice";
+  const bool everywhere = scene.numerics.wall_layers == "fitted" && scene.dimensions == 2;
   std::vector<BandPoint> band = wall_band(layout, surfaces, space, walls, fitted ? fitted_band : boundary_layer_count, vdb_path);
   if (reach) keep_reachable(band, space, *reach);
   report.band_voxels = band.size();
@@ -304,7 +305,7 @@ Case build_case(const Scene& scene, BuildReport& report, const std::string& vdb_
   const std::size_t first = out.boundary.position.size();
   if (fitted) {
     LayerRequest request{&surfaces.mesh, layout.lattice, layout.domain, {}, {}, 0.0};
-    if (scene.dimensions == 3) request.wet = out.fluid.position, request.wet_reach = (2.0 * scene.numerics.smoothing_ratio + 1.5) * scene.dp;
+    if (!everywhere) request.wet = out.fluid.position, request.wet_reach = (2.0 * scene.numerics.smoothing_ratio + 1.5) * scene.dp;
     add_fitted_layers(band, layout.parts, std::move(request), out.boundary);
   } else {
     add_band_layers(band, layout.parts, layout.lattice, out.boundary);
@@ -314,7 +315,7 @@ Case build_case(const Scene& scene, BuildReport& report, const std::string& vdb_
   stages.begin("placing bodies and slides");
   add_bodies_and_slides(layout, out, report, scope);
   const std::vector<double> top = column_tops(space, out.fluid.position);
-  const bool moves = fitted && first < last && scene.dimensions == 2;
+  const bool moves = everywhere && first < last;
   if (moves) relax_water(out.fluid.position, out.boundary, first, last, space, scene.numerics.smoothing_ratio * scene.dp);
   thin_to_pores(out.fluid.position, porous_regions(layout, space), space);
   if (moves) set_start_pressure(layout, space, top, out.fluid);

@@ -156,7 +156,7 @@ struct Numerics {
   double expected_speed = 0.0;            ///< m/s; 0: estimated from the scene
   std::string time_scheme = "split";      ///< "split" (position Verlet, two light passes) | "verlet" (paper A.1-A.3)
   std::string walls = "extrapolated";     ///< "extrapolated" (Adami et al. 2012) | "dynamic"
-  std::string wall_layers = "fitted";      ///< "fitted" | "lattice": wall particles of terrain and meshes
+  std::string wall_layers = "fitted-where-dry";   ///< also "fitted", "lattice": wall particles of terrain and meshes
   std::string viscosity = "artificial";   ///< "artificial" | "morris" | "none"
   double artificial_viscosity = 0.05;     ///< alpha
   double density_diffusion = 0.1;         ///< delta; 0: none

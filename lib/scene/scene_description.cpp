@@ -183,8 +183,8 @@ void describe_numerics(V& v, Scene& scene) {
            {"split", "verlet"});
   v.choice({"walls", "", "wall values extrapolated from the fluid, or dynamic particles; preset paper: dynamic"},
            n.walls, {"extrapolated", "dynamic"});
-  v.choice({"wall_layers", "", "wall particles of terrain and meshes in even layers along the surface (in space: where no water stands at the start), or on the cubic lattice; preset paper: lattice"},
-           n.wall_layers, {"fitted", "lattice"});
+  v.choice({"wall_layers", "", "wall particles of terrain and meshes in even layers along the surface, where no water stands at the start (fitted-where-dry) or everywhere (fitted; in space as before), or on the cubic lattice; preset paper: lattice"},
+           n.wall_layers, {"fitted-where-dry", "fitted", "lattice"});
   v.choice({"viscosity", "", "viscous term of the fluid; preset paper: morris"}, n.viscosity,
            {"artificial", "morris", "none"});
   v.number({"artificial_viscosity", "1", "alpha; preset paper: 0"}, n.artificial_viscosity, not_negative);

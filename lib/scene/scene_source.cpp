@@ -200,6 +200,7 @@ void forget_old_preset(toml::table& root) {
   };
   drop("numerics", "time_scheme", old.numerics.time_scheme);
   drop("numerics", "walls", old.numerics.walls);
+  drop("numerics", "wall_layers", old.numerics.wall_layers);
   drop("numerics", "viscosity", old.numerics.viscosity);
   drop("numerics", "smoothing_ratio", old.numerics.smoothing_ratio);
   drop("numerics", "artificial_viscosity", old.numerics.artificial_viscosity);
