@@ -124,9 +124,8 @@ void fill_fluid(const Layout& layout, const FillSpace& space, Case& out, BuildRe
   double level = -1e300;
   for (std::size_t k = 0; k < layout.scene.fluid.fill.size(); ++k) {
     FillReport fill;
-    std::vector<Vec3d> points = fill_water(layout.scene.fluid.fill[k], layout.parts.fluid[k], space, layout.parts, "fluid.fill." + std::to_string(k), fill);
-    if (out.fluid.position.empty()) out.fluid.position = std::move(points);
-    else add_fill(out.fluid.position, points, layout.lattice.dp);
+    add_fill(out.fluid.position, fill_water(layout.scene.fluid.fill[k], layout.parts.fluid[k], space, layout.parts, "fluid.fill." + std::to_string(k), fill),
+             layout.lattice.dp);
     level = std::max(level, fill.level);
     if (fill.open_edge > 0.0) {
       char text[256];

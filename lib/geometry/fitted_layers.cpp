@@ -75,8 +75,7 @@ class Layers {
     const PointCells wet(r_.wet, r_.wet_reach > 0.0 ? r_.wet_reach : dp_);
 #pragma omp parallel for schedule(dynamic, 256)
     for (std::size_t i = 0; i < band.size(); ++i) {
-      bool keep = false;
-      wet.near(r_.lattice.point(band[i].at), r_.wet_reach, [&](std::uint32_t) { keep = true; });
+      bool keep = wet.any_within(r_.lattice.point(band[i].at), r_.wet_reach);
       LayerPoint p;
       if (!keep && is_in_layers(band[i])) keep = !enter(band[i], static_cast<int>(-band[i].distance / dp_), p);
       kept[i] = keep;
@@ -130,7 +129,7 @@ class Layers {
     for (std::size_t i = 0; i < point_.size(); ++i) {
       neighbour_[i].clear();
       if (layer_[i] < 0) continue;
-      cells.near(point_[i].position, width, [&](std::uint32_t j) {
+      cells.near(point_[i].position, width, [&](std::uint32_t j, double) {
         if (j != i && (stays(j) || layer_[j] == layer_[i])) neighbour_[i].push_back(j);
       });
     }

@@ -24,7 +24,6 @@ class Vicinity {
   std::vector<std::int32_t> wall;                 ///< triangles near grain i, likewise
 
  private:
-  struct Cells;
   void find_pairs(const PackingState& state);
   void find_walls(const PackingState& state);
 

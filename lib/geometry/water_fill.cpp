@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "geometry/point_cells.hpp"
 
 namespace gdesp::geometry {
 namespace {
@@ -247,39 +248,6 @@ ColumnIntervals box_columns(const Box& box, const FillSpace& s) {
   return subtract(out, s.solid);
 }
 
-/// Points by cells of edge `cell`, for questions of nearness.
-class PointHash {
- public:
-  PointHash(const std::vector<Vec3d>& points, double cell) : points_(points), cell_(cell) {
-    order_.reserve(points.size());
-    for (std::size_t k = 0; k < points.size(); ++k) order_.push_back({key(points[k], 0, 0, 0), k});
-    std::sort(order_.begin(), order_.end());
-  }
-  bool any_within(const Vec3d& p, double distance) const {
-    for (int dx = -1; dx <= 1; ++dx) {
-      for (int dy = -1; dy <= 1; ++dy) {
-        for (int dz = -1; dz <= 1; ++dz) {
-          const std::uint64_t k = key(p, dx, dy, dz);
-          for (auto at = std::lower_bound(order_.begin(), order_.end(), std::pair<std::uint64_t, std::size_t>{k, 0}); at != order_.end() && at->first == k; ++at) {
-            const Vec3d d = points_[at->second] - p;
-            if (dot(d, d) <= distance * distance) return true;
-          }
-        }
-      }
-    }
-    return false;
-  }
-
- private:
-  std::uint64_t key(const Vec3d& p, int dx, int dy, int dz) const {
-    const auto part = [&](double c, int d) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(c / cell_)) + d) & 0x1fffff; };
-    return part(p.x, dx) << 42 | part(p.y, dy) << 21 | part(p.z, dz);
-  }
-  const std::vector<Vec3d>& points_;
-  double cell_;
-  std::vector<std::pair<std::uint64_t, std::size_t>> order_;
-};
-
 bool in_region(const PorousRegion& region, const Vec3d& p, const FillSpace& s) {
   const bool flat = s.lattice.dimensions == 2;
   if (region.box) return box_distance(*region.box, p, s.lattice.dimensions) == 0.0;
@@ -355,13 +323,12 @@ std::vector<Vec3d> fill_water(const FluidFill& fill, const SolidPart& mesh, cons
   return points;
 }
 
-void add_fill(std::vector<Vec3d>& fluid, const std::vector<Vec3d>& more, double dp) {
+void add_fill(std::vector<Vec3d>& fluid, std::vector<Vec3d> more, double dp) {
   if (fluid.empty()) {
-    fluid = more;
+    fluid = std::move(more);
     return;
   }
-  const std::vector<Vec3d> before = fluid;
-  const PointHash there(before, dp);
+  const PointCells there(fluid, dp);
   for (const auto& p : more) {
     if (!there.any_within(p, 0.5 * dp)) fluid.push_back(p);
   }
@@ -372,7 +339,7 @@ void thin_to_pores(std::vector<Vec3d>& fluid, const std::vector<PorousRegion>& p
     std::vector<Vec3d> kept, replaced;
     for (const auto& p : fluid) (in_region(region, p, s) ? replaced : kept).push_back(p);
     if (replaced.empty()) continue;
-    const PointHash wet(replaced, s.lattice.dp);
+    const PointCells wet(replaced, s.lattice.dp);
     const double wanted = s.lattice.dp / std::pow(region.porosity, 1.0 / s.lattice.dimensions);
     fitted_lattice(region.bounds, wanted, s.lattice.dimensions, [&](const Vec3d& p) {
       if (in_region(region, p, s) && wet.any_within(p, 0.9 * s.lattice.dp)) kept.push_back(p);

@@ -52,7 +52,7 @@ std::vector<Vec3d> fill_water(const FluidFill& fill, const SolidPart& mesh, cons
                               const std::string& name, FillReport& report);
 
 /// Appends the points of `more` that are farther than dp / 2 from every point of `fluid`.
-void add_fill(std::vector<Vec3d>& fluid, const std::vector<Vec3d>& more, double dp);
+void add_fill(std::vector<Vec3d>& fluid, std::vector<Vec3d> more, double dp);
 
 /// Inside porous regions a coarser lattice that holds the pores' share of the fluid takes the particles' place, so that
 /// the mass per particle stays the same everywhere.

@@ -33,7 +33,7 @@ class WaterRelaxation {
     const PointCells near_walls(fitted, moving_reach * dp_);
     for (std::size_t i = 0; i < water.size(); ++i) {
       bool moves = false;
-      near_walls.near(water[i], moving_reach * dp_, [&](std::uint32_t) { moves = true; });
+      near_walls.near(water[i], moving_reach * dp_, [&](std::uint32_t, double) { moves = true; });
       if (moves) moving_.push_back(static_cast<std::uint32_t>(i));
     }
   }
@@ -92,10 +92,7 @@ class WaterRelaxation {
   }
 
   bool is_taken(const PointCells& cells, const Vec3d& p) const {
-    if (in_solid(p)) return true;
-    bool found = false;
-    cells.near(p, taken * dp_, [&](std::uint32_t) { found = true; });
-    return found;
+    return in_solid(p) || cells.any_within(p, taken * dp_);
   }
 
   void renew() {
@@ -105,7 +102,7 @@ class WaterRelaxation {
 #pragma omp parallel for schedule(dynamic, 64)
     for (std::size_t k = 0; k < moving_.size(); ++k) {
       neighbour_[k].clear();
-      cells.near(all_[moving_[k]], width, [&](std::uint32_t j) {
+      cells.near(all_[moving_[k]], width, [&](std::uint32_t j, double) {
         if (j != moving_[k]) neighbour_[k].push_back(j);
       });
     }
