@@ -41,12 +41,10 @@ void for_each_neighbour(const ColumnGrid& grid, std::size_t s, double link, Visi
   });
 }
 
-std::vector<std::uint8_t> find_torn(const ColumnGrid& grid, double limit, std::span<const float> relative_density,
-                                    std::size_t& count) {
+std::vector<std::uint8_t> find_torn(const ColumnGrid& grid, double limit, std::span<const float> relative_density) {
   std::vector<std::uint8_t> torn(grid.size(), 0);
   if (relative_density.size() != grid.size()) return torn;
   for (std::size_t s = 0; s < grid.size(); ++s) torn[s] = relative_density[grid.index(s)] < limit;
-  count = static_cast<std::size_t>(std::count(torn.begin(), torn.end(), 1));
   return torn;
 }
 
@@ -70,7 +68,7 @@ ConnectedWater find_connected_water(const ColumnGrid& grid, double dp, const Con
   const std::size_t n = grid.size();
   const double link = rule.link * dp;
   ConnectedWater result;
-  const std::vector<std::uint8_t> torn = find_torn(grid, rule.torn_below, relative_density, result.torn);
+  const std::vector<std::uint8_t> torn = find_torn(grid, rule.torn_below, relative_density);
   const std::vector<std::uint8_t> core = find_cores(grid, link, torn);
   std::vector<Label> parent(n);
   for (std::size_t s = 0; s < n; ++s) parent[s] = static_cast<Label>(s);
@@ -99,7 +97,9 @@ ConnectedWater find_connected_water(const ColumnGrid& grid, double dp, const Con
   for (const Label l : label) ++members[l];
   const double least = rule.main_share * static_cast<double>(n);
   result.main.assign(n, 0);
+  result.torn.assign(n, 0);
   for (std::size_t s = 0; s < n; ++s) {
+    result.torn[grid.index(s)] = torn[s];
     if (members[s] >= least && members[s] > 1) ++result.bodies;
     if (members[label[s]] < least || members[label[s]] < 2) continue;
     result.main[grid.index(s)] = 1;

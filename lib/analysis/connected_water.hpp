@@ -29,7 +29,7 @@ struct ConnectedWater {
   std::vector<std::uint8_t> main;  ///< per particle (caller's order): 1 in the main body, 0 splash
   std::size_t main_count = 0;
   std::size_t bodies = 0;          ///< clusters that make the main body
-  std::size_t torn = 0;            ///< particles that their density makes splash
+  std::vector<std::uint8_t> torn;  ///< per particle (caller's order): 1 where its density makes it splash
 };
 
 /// `relative_density`: rho / rho_0 per particle in the caller's order, or empty. `grid`'s cell must be at least rule.link * dp.

@@ -214,7 +214,7 @@ class Report {
       t.row.push_back(std::move(cells));
     }
     page.table(t);
-    page.paragraph("Run-up: highest point of the connected water on a bank above still water; at least one particle thick; splash is "
+    page.paragraph("Run-up: highest point of the connected water on a bank above still water, with the film it thins to; splash is "
                    "counted apart. The reading resolves one particle spacing." +
                    std::string(bars ? " Error bar: grid convergence index (Celik et al. 2008) of the three finest runs." : ""));
   }

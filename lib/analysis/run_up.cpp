@@ -47,7 +47,7 @@ std::vector<std::uint8_t> main_body_and_film(const ColumnGrid& grid, const Conne
   if (walls.empty()) return counts;
   const auto is_above = [&](std::size_t s) { return grid.position(s).z + 0.5 * at.dp > at.still_water_level; };
   for (std::size_t s = 0; s < grid.size(); ++s) {
-    if (!counts[s] && is_above(s) && is_single_layer(grid, s, at.dp, walls)) edge.push_back(s);
+    if (!counts[s] && !water.torn[grid.index(s)] && is_above(s) && is_single_layer(grid, s, at.dp, walls)) edge.push_back(s);
   }
   const int needed = grid.dimensions() == 2 ? 1 : 3;
   for (std::size_t before = edge.size() + 1; before > edge.size();) {

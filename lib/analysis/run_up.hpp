@@ -6,7 +6,7 @@
 //     - belong to the connected main body (connected_water.hpp: chains of neighbours within 1.5 dp, at least one particle
 //       thick, of water whose density is whole; drops, spray, threads and torn water are splash and reported apart),
 //     - touch a wall at rest (terrain, tank): centre within 2.6 dp (the support of the smoothing) of its surface.
-// A tongue thinner than dp is there too: a single layer of particles on the wall (centre within dp of it, no other water over it within 1.5 dp),
+// A tongue thinner than dp is there too: a single layer of whole particles on the wall (centre within dp of it, no other water over it within 1.5 dp),
 // drawn apart, so that a film of thickness e has them (dp/e) dp apart along the flow. Such a particle belongs to the sheet when it is nearer than 2.6 dp
 // to particles of it: to one in the plane, to three in space. So the film is followed down to a thickness of 0.4 dp; drops on the bank are
 // splash. (Experiments see the film; read at whole thickness the solitary wave on a beach of 1:5 loses a seventh of its run-up.)

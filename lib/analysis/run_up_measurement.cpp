@@ -63,7 +63,7 @@ void RunUpMeasurement::choose_line() {
 
 void RunUpMeasurement::add(FrameView& view, const RowSink& emit) {
   const ConnectedWater connected = view.connected(options_.rule.connectivity);
-  most_torn_ = std::max(most_torn_, connected.torn);
+  most_torn_ = std::max(most_torn_, static_cast<std::size_t>(std::count(connected.torn.begin(), connected.torn.end(), 1)));
   const RunUpFrame f = measure_run_up(view.grid(), connected, {info_.dp, still_, options_.rule.contact * info_.dp}, walls_,
                                       regions_);
   time_.push_back(view.time());

@@ -90,6 +90,23 @@ TEST(RunUp, TornWaterIsSplash) {
   EXPECT_NEAR(torn.region[0].splash, 1.5, 1e-9);
 }
 
+// Drops that pass the wall next to the lake are no film: their density tells.
+TEST(RunUp, TornParticlesBesideTheSheetAreNoFilm) {
+  auto p = water_up_to(1.0, 8.0, 0.25);
+  const std::size_t whole = p.size();
+  for (const double x : {8.15, 8.35, 8.55}) {
+    for (double y = 0.5 * dp; y < 2.0; y += dp) p.push_back({x, y, bed(x) + 0.03});
+  }
+  std::vector<float> density(p.size(), 1.0f);
+  const double with_film = read(p, beach(), anywhere, density).region[0].height;
+  for (std::size_t k = whole; k < p.size(); ++k) density[k] = 0.5f;
+  const double torn = read(p, beach(), anywhere, density).region[0].height;
+  p.resize(whole);
+  density.resize(whole);
+  EXPECT_EQ(torn, read(p, beach(), anywhere, density).region[0].height);
+  EXPECT_GT(with_film, torn);
+}
+
 TEST(RunUp, AVerticalWallIsABank) {
   TriangleTable wall;
   wall.vertex = {{0, 0, 0}, {0, 2, 0}, {0, 2, 4}, {0, 0, 4}};
