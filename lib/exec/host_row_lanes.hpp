@@ -13,7 +13,11 @@ struct Int8 {
   Int8(Vector x) : v(x) {}
   Int8(std::int32_t x) : v(x - Vector{}) {}
 };
-inline Int8 operator-(const Int8& a, const Int8& b) { return a.v - b.v; }
+/// Wraps around, as differences of fractions of a tile are meant to.
+inline Int8 operator-(const Int8& a, const Int8& b) {
+  typedef std::uint32_t Unsigned __attribute__((vector_size(32)));
+  return reinterpret_cast<Int8::Vector>(reinterpret_cast<Unsigned>(a.v) - reinterpret_cast<Unsigned>(b.v));
+}
 inline Int8::Vector operator==(const Int8& a, const Int8& b) { return a.v == b.v; }
 
 /// Eight floats side by side.
