@@ -13,6 +13,7 @@
 #include <vtkScalarBarActor.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
 
 #include <algorithm>
@@ -22,7 +23,7 @@
 
 #include "analysis/picture_parts.hpp"
 #include "analysis/table.hpp"
-#include "core/error.hpp"
+#include "io/safe_file.hpp"
 
 VTK_MODULE_INIT(vtkRenderingOpenGL2)
 VTK_MODULE_INIT(vtkRenderingFreeType)
@@ -253,14 +254,13 @@ class Painter {
     vtkNew<vtkImageData> small;
     average(grab->GetOutput(), small);
     vtkNew<vtkPNGWriter> writer;
-    const std::string aside = path + ".part";
-    writer->SetFileName(aside.c_str());
+    writer->WriteToMemoryOn();
     writer->SetInputData(small);
     writer->Write();
-    if (writer->GetErrorCode() != 0 || !std::filesystem::exists(aside)) {
-      throw Error(ErrorKind::resource, path + ": cannot be written");
-    }
-    std::filesystem::rename(aside, path);
+    vtkUnsignedCharArray* bytes = writer->GetResult();
+    SafeFile file(path);
+    file.write(bytes->GetPointer(0), static_cast<std::size_t>(bytes->GetNumberOfValues()));
+    file.commit();
   }
 
   static void average(vtkImageData* large, vtkImageData* small) {

@@ -355,6 +355,19 @@ void run_gnuplot(const std::string& commands, const std::string& log) {
   }
 }
 
+// gnuplot ends well on a full disk too; a file that is all there ends as its format wants.
+bool is_whole(const std::string& path, const std::string& kind) {
+  constexpr std::size_t tail = 32;
+  std::error_code problem;
+  const std::uintmax_t size = fs::file_size(path, problem);
+  if (problem || size < tail) return false;
+  std::ifstream in(path, std::ios::binary);
+  in.seekg(-static_cast<std::streamoff>(tail), std::ios::end);
+  std::string end(tail, '\0');
+  in.read(end.data(), tail);
+  return end.find(kind == ".svg" ? "</svg>" : kind == ".png" ? "IEND" : "%%EOF") != std::string::npos;
+}
+
 }  // namespace
 
 std::string plain_text(const std::string& name) {
@@ -386,6 +399,7 @@ void write_figure(const Figure& figure, const std::string& path) {
   const std::string aside = path + ".part-" + std::to_string(::getpid()) + kind, log = aside + ".log";
   try {
     run_gnuplot(script(figure, kind, aside), log);
+    if (!is_whole(aside, kind)) throw Error(ErrorKind::resource, path + ": cannot be written whole (is there room?)");
     fs::rename(aside, path);
     fs::remove(log);
   } catch (...) {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From main() to exit code.
 #include <csignal>
+#include <cstdio>
 #include <filesystem>
 #include <new>
 
+#include <fcntl.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -24,6 +26,15 @@ extern "C" void note_signal(int) {
   if (signals_seen == 0) first_signal = now;
   else if (now.tv_sec > first_signal.tv_sec + 1) ::_exit(130);
   signals_seen = 1;
+}
+
+/// A standard stream that was closed by the caller ("2>&-") would give its number to the first file that is opened, and records
+/// or messages would go into that file. It leads to where every use fails instead.
+void occupy_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(stream, F_GETFD) != -1) continue;
+    if (::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY) != stream) std::perror("/dev/null");
+  }
 }
 
 int run_body(int argc, char** argv, const std::function<int(const std::vector<std::string>&)>& body) {
@@ -49,6 +60,7 @@ int run_body(int argc, char** argv, const std::function<int(const std::vector<st
 
 int run_tool(const char* name, int argc, char** argv,
              const std::function<int(const std::vector<std::string>&)>& body) {
+  occupy_standard_streams();
   terminal::set_tool_name(name);
   std::signal(SIGPIPE, SIG_IGN);
   try {
@@ -64,6 +76,8 @@ void install_signal_handlers() {
   sigemptyset(&action.sa_mask);
   ::sigaction(SIGINT, &action, nullptr);
   ::sigaction(SIGTERM, &action, nullptr);
+  struct sigaction before {};  // a terminal that closes asks the same, unless nohup(1) has told it not to
+  if (::sigaction(SIGHUP, nullptr, &before) == 0 && before.sa_handler != SIG_IGN) ::sigaction(SIGHUP, &action, nullptr);
 }
 
 bool interrupted() { return signals_seen > 0; }

@@ -153,14 +153,30 @@ Tally run_target(const Target& target, const Options& o, const std::string& scra
   return out;
 }
 
+/// A folder of its own in the place for temporary files, gone at the end.
+struct Scratch {
+  std::string path = (fs::temp_directory_path() / ("gdesp-fuzz-" + std::to_string(::getpid()))).string();
+  Scratch() { fs::create_directories(path); }
+  ~Scratch() {
+    std::error_code none;
+    fs::remove_all(path, none);
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+};
+
 /// Reads one kept input again, without a child process: for the debugger.
 int replay(const std::string& file, const std::string& only) {
   std::ifstream in(file, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}}, name = fs::path(file).filename().string();
   for (const auto& target : targets()) {
     if (only != target.name) continue;
+    const Scratch scratch;
+    if (target.seeds) target.seeds(scratch.path);
+    const std::string path = scratch.path + "/" + name.substr(name.rfind('-') + 1);   // the seed's own name, see name_of()
+    write_file(path, bytes);
     Tally tally;
-    const std::string wrong = try_one(target, bytes, file, tally);
+    const std::string wrong = try_one(target, bytes, path, tally);
     std::printf("%s: %s\n", file.c_str(), !wrong.empty() ? wrong.c_str() : (tally.read ? "read" : "refused"));
     return wrong.empty() ? 0 : 1;
   }
@@ -168,7 +184,6 @@ int replay(const std::string& file, const std::string& only) {
 }
 
 int run(const Options& o) {
-  const std::string scratch = (fs::temp_directory_path() / ("gdesp-fuzz-" + std::to_string(::getpid()))).string();
   std::size_t count = 0;
   for (const auto& t : targets()) count += o.only.empty() || o.only == t.name;
   if (count == 0) {
@@ -179,14 +194,13 @@ int run(const Options& o) {
   std::printf("target\tinputs\tread\trefused\tof these a library's crash contained\tfindings\tseconds\n");
   for (const auto& target : targets()) {
     if (!o.only.empty() && o.only != target.name) continue;
-    fs::create_directories(scratch);
+    const Scratch scratch;
     const auto start = std::chrono::steady_clock::now();
-    const Tally t = run_target(target, o, scratch, o.seconds / static_cast<double>(count));
+    const Tally t = run_target(target, o, scratch.path, o.seconds / static_cast<double>(count));
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     std::printf("%s\t%llu\t%llu\t%llu\t%llu\t%llu\t%.1f\n", target.name, static_cast<unsigned long long>(t.next), static_cast<unsigned long long>(t.read),
                 static_cast<unsigned long long>(t.refused), static_cast<unsigned long long>(t.contained), static_cast<unsigned long long>(t.findings), seconds);
     std::fflush(stdout);
-    fs::remove_all(scratch);
     all += t.next;
     findings += t.findings;
   }
@@ -216,6 +230,8 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: fuzz_readers --corpus FOLDER [--target NAME] [--inputs N] [--first N] [--seconds S, of all targets] [--keep FOLDER] [--replay FILE]\n");
     return 2;
   }
+  o.keep = std::filesystem::absolute(o.keep).string();   // a target may change the current folder
+  if (!again.empty()) again = std::filesystem::absolute(again).string();
   gdesp::cli::set_verbosity(gdesp::cli::Verbosity::quiet, false);
   try {
     return again.empty() ? gdesp::fuzz::run(o) : gdesp::fuzz::replay(again, o.only);

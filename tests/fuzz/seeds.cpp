@@ -140,6 +140,23 @@ Seeds case_seeds(const std::string& folder) {
   return files_of(folder + "/good.case");
 }
 
+Seeds record_seeds(const std::string& folder) {
+  case_seeds(folder);
+  FrameWriter writer(folder + "/a.run", {1000.0, 0.0, 0.0}, 0.1, true, false);
+  std::string water, grains, last = "{\"record\":\"done\",\"run\":\"a.run\",\"case\":\"good.case\",\"steps\":40,\"t\":1.5,\"particles\":7,\"device\":\"cpu\"}\n";
+  for (int k = 0; k < 2; ++k) {
+    Frame frame = small_frame();
+    frame.time += k;
+    const FramePaths paths = writer.write(frame);
+    const auto name = [&](const std::string& path) { return '"' + fs::relative(path, folder).string() + '"'; };
+    const std::string end = ",\"t\":" + std::to_string(frame.time) + ",\"step\":" + std::to_string(20 * (k + 1)) + "}\n";
+    water += "{\"record\":\"frame\",\"path\":" + name(paths.fluid) + ",\"fluid\":" + name(paths.fluid) + ",\"grains\":" + name(paths.grains) +
+             ",\"bodies\":" + name(paths.bodies) + ",\"case\":\"good.case\"" + end;
+    grains += "{\"record\":\"frame\",\"path\":" + name(paths.grains) + ",\"grains\":" + name(paths.grains) + ",\"case\":\"good.case\"" + end;
+  }
+  return {{"water.ndjson", "{\"record\":\"case\",\"path\":\"good.case\"}\n" + water + last}, {"grains.ndjson", grains + last}, {"short.ndjson", grains}};
+}
+
 SimulationInput small_tank() {
   SimulationInput input = test::tank_input({1.0, 0.0, 1.0}, 0.4, 0.2, 2);
   test::fill_block(input.fluid, {}, {1.0, 0.0, 0.4}, 0.2, true);

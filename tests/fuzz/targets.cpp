@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <memory>
 #include <sstream>
 
 #include "analysis/frame_source.hpp"
@@ -100,12 +101,14 @@ void read_checkpoint(const std::string& bytes, const std::string& path) {
   tool::CheckpointFiles(run, checkpoint_fingerprint).load_newest(*simulation);
 }
 
-void read_record_stream(const std::string& bytes, const std::string&) {
-  std::istringstream in(bytes);
-  int line = 0;
+/// Paths in the records are taken from the scratch folder, where the seeds' frames and case are.
+void read_record_stream(const std::string& bytes, const std::string& path) {
+  fs::current_path(fs::path(path).parent_path());
+  struct Input { std::istringstream text; int line = 0; };
+  const auto in = std::make_shared<Input>(std::istringstream(bytes));   // the source's own thread may still read when this returns
   analysis::SourceOptions options;
   options.inputs = {"-"};
-  options.next_record = [&] { return cli::read_record(in, line); };
+  options.next_record = [in] { return cli::read_record(in->text, in->line); };
   analysis::FrameSource source(options);
   for (int k = 0; k < 10 && source.next(); ++k) {}
 }
@@ -149,7 +152,7 @@ const std::vector<Target>& targets() {
       {"scene", true, read_scene_file, nullptr},
       {"override", false, read_override, nullptr},
       {"command-line", false, read_command_line, nullptr},
-      {"records", false, read_record_stream, nullptr},
+      {"records", false, read_record_stream, record_seeds},
       {"run-files", true, read_run_files, nullptr},
       {"table", true, read_table_file, nullptr},
       {"motion", true, read_motion_file, nullptr},

@@ -94,6 +94,12 @@ if [ "$(id -u)" -ne 0 ]; then
   expect 5 "locked" "$program" tank.toml -o locked/tank.case
 fi
 
+# More particles than there is memory for: a word, and nothing left behind. (The address sanitizer bears no limit.)
+if ! ldd "$program" | grep -q libasan; then
+  (ulimit -v 700000; OMP_NUM_THREADS=1 expect 5 "twice the resolution.dp" "$program" tank.toml -o large.case --set resolution.dp=0.0008; exit "$failures") || failures=$((failures + 1))
+  [ -z "$(ls -d large* 2> /dev/null)" ] || fail "left behind: $(ls -d large*)"
+fi
+
 # --check: usable 0, refused 3, one record a file; no case is made.
 "$program" --check bowl.asc > out.txt 2> err.txt || fail "--check of a good raster"
 grep -q '"verdict":"usable"' out.txt || fail "--check: $(cat out.txt)"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Measurements over frames made in memory, and plots.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -197,6 +198,13 @@ TEST(Plot, WritesEachKindAndRefusesOthers) {
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) files += entry.is_regular_file();
   EXPECT_EQ(files, 3u) << "nothing aside is left";
+  for (const std::string kind : {".svg", ".png", ".pdf"}) {   // a disk without room: gnuplot says nothing of it
+    if (!std::filesystem::exists("/dev/full")) break;
+    const std::string path = (folder / ("full" + kind)).string();
+    std::filesystem::create_symlink("/dev/full", path + ".part-" + std::to_string(::getpid()) + kind);
+    EXPECT_THROW(write_figure(figure, path), Error);
+    EXPECT_FALSE(std::filesystem::exists(path));
+  }
   EXPECT_EQ(figure_as_svg(figure).rfind("<svg", 0), 0u);
   std::filesystem::remove_all(folder);
   EXPECT_THROW(write_figure(figure, "p.jpg"), Error);

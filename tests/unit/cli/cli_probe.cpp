@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <fstream>
 #include <iostream>
 #include <thread>
 
@@ -40,6 +41,13 @@ int wait_for_records() {
   return 0;
 }
 
+int write_file_and_record() {
+  std::ofstream file("file");
+  file << "its own" << std::flush;
+  cli::write_record({{"record", "frame"}});
+  return 0;
+}
+
 int draw_bar() {
   cli::Progress progress("filling");
   for (int i = 0; i <= 8; ++i) {
@@ -63,6 +71,7 @@ int body(const std::vector<std::string>& arguments) {
   if (what == "table") return endless_table();
   if (what == "signal") return wait_for_signal();
   if (what == "read") return wait_for_records();
+  if (what == "file") return write_file_and_record();
   if (what == "bar") return draw_bar();
   std::cout << "done\n";
   return 0;

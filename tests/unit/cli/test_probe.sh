@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # run_tool() seen from outside. Usage: test_probe.sh PROBE
 set -u
-probe=$1
+probe=$(realpath "$1")
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 failures=0
@@ -52,8 +52,22 @@ if [[ -c /dev/full ]]; then
   done
 fi
 
-# SIGINT and SIGTERM: the tool finishes its step, says so, and ends with 130; also while it waits for records
-for signal in INT TERM; do
+# a standard stream that is closed is not quiet either, and no file takes its place
+for what in records table; do
+  text=$("$probe" "$what" 2>&1 >&-)
+  expect "exit code of $what into nothing" $? 5
+  expect_in "message of $what into nothing" "$text" "standard output cannot be written"
+done
+(cd "$folder" && exec "$probe" file >&-)
+expect "exit code with a file and no standard output" $? 5
+expect "the file" "$(cat "$folder/file")" "its own"
+"$probe" read <&- >/dev/null 2>&1
+expect "exit code without standard input" $? 0
+"$probe" input 2>&- >/dev/null
+expect "exit code without standard error" $? 3
+
+# SIGINT, SIGTERM, SIGHUP (the terminal goes away): the tool finishes its step, says so, and ends with 130; also while it waits for records
+for signal in INT TERM HUP; do
   for what in signal read; do
     mkfifo "$folder/in"
     "$probe" "$what" <"$folder/in" 2>"$folder/err" >/dev/null &
@@ -70,6 +84,15 @@ for signal in INT TERM; do
     [[ $what == signal ]] && expect_in "last words after SIG$signal" "$(cat "$folder/err")" "checkpoint written"
   done
 done
+
+# under nohup(1) a terminal that goes away is no reason to end
+(trap '' HUP; exec "$probe" signal 2>"$folder/err") &
+pid=$!
+for _ in $(seq 200); do grep -q waiting "$folder/err" && break; sleep 0.02; done
+kill -HUP "$pid"; sleep 0.2
+expect "after SIGHUP under nohup" "$(cat "$folder/err")" "cli_probe: waiting"
+kill -TERM "$pid"; wait "$pid"
+expect "exit code of what nohup kept" $? 130
 
 # records from a pipe
 expect "records from a pipe" "$(printf '{"a":1}\n\n{"b":2}\n' | "$probe" read 2>/dev/null)" '{"record":"done","count":2}'
