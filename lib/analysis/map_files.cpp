@@ -23,7 +23,7 @@ std::string wkt_of(const std::string& crs) {
   OGRSpatialReferenceH srs = OSRNewSpatialReference(nullptr);
   char* text = nullptr;
   const bool known = OSRSetFromUserInput(srs, crs.c_str()) == OGRERR_NONE && OSRExportToWkt(srs, &text) == OGRERR_NONE;
-  const std::string wkt = known ? text : "";
+  std::string wkt = known ? text : "";
   CPLFree(text);
   OSRDestroySpatialReference(srs);
   if (!known) throw Error(ErrorKind::input, "terrain.crs \"" + crs + "\": GDAL does not know it; valid is e.g. EPSG:32632");

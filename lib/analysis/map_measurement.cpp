@@ -128,8 +128,9 @@ std::vector<double> MapMeasurement::contour_levels() const {
   for (const double m : {2.0, 5.0, 10.0}) {
     if (step < (high - low) / 20.0) step = m * unit;
   }
-  const double up = info_.offset.z;
-  for (double z = std::ceil((low + up) / step) * step; z < high + up; z += step) levels.push_back(z - up);
+  const double up = info_.offset.z, first = std::ceil((low + up) / step);
+  const int most = static_cast<int>((high - low) / step) + 1;   // (a range below the rounding of `up` would never be left by steps)
+  for (int k = 0; k < most && (first + k) * step < high + up; ++k) levels.push_back((first + k) * step - up);
   return levels;
 }
 

@@ -99,7 +99,9 @@ void add_contours(const PictureScene& scene, vtkPolyData* terrain, const double*
       contour->SetValue(count++, *scene.info.still_water_level);
     } else {
       const double base = scene.info.offset.z;  // round numbers in the scene's own elevations
-      for (double z = std::ceil((range[0] + base) / step) * step - base; z < range[1]; z += step) contour->SetValue(count++, z);
+      const double first = std::ceil((range[0] + base) / step);
+      const int most = static_cast<int>((range[1] - range[0]) / step) + 1;
+      while (count < most && (first + count) * step - base < range[1]) contour->SetValue(count, (first + count) * step - base), ++count;
     }
     contour->SetNumberOfContours(count);
     vtkNew<vtkPolyDataMapper> mapper;
@@ -255,6 +257,7 @@ void add_balls(const PictureScene& scene, const std::vector<Vec3d>& position, co
 
 std::vector<float> speeds(const std::vector<Vec3f>& velocity) {
   std::vector<float> speed;
+  speed.reserve(velocity.size());
   for (const Vec3f& v : velocity) speed.push_back(norm(v));
   return speed;
 }

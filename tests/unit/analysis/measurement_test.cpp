@@ -176,6 +176,16 @@ TEST(MapMeasurement, LevelDepthAndArrival) {
   EXPECT_NEAR(cell(m.level_max(), 3.65, 1.05), 1.0, 0.1 * dp);
 }
 
+// Elevations of the scene (500 m) are rounded to 1e-13 m: contours a hundredth of that apart would never come to the top.
+TEST(MapMeasurement, GroundThatIsFlatButForRoundingHasFewContours) {
+  RunInfo info = tank(0.1);
+  info.walls.vertex = {{0, 0, 0}, {4, 0, 0}, {4, 2, 4e-13}, {0, 2, 4e-13}};
+  info.walls.triangle = {{0, 1, 2}, {0, 2, 3}};
+  MapMeasurement m({});
+  run(m, info, {block(0, 3.0, 1.0, 0.1), block(1, 3.0, 1.2, 0.1)});
+  EXPECT_LT(m.figure().map.size(), 3u);
+}
+
 TEST(Plot, WritesEachKindAndRefusesOthers) {
   Figure figure;
   Panel panel;
