@@ -25,10 +25,10 @@ def write_table(path, rows):
 
 def merge(old, new, names):
     """New rows take the place of old ones of the same case, preset and spacing. Ordered by case, spacing and preset, so that
-    tables of two people differ only where they measured differently; cases that are no more are left out."""
+    tables of two people differ only where they measured differently; cases and variants that are no more (not in `names`) are left out."""
     renewed = {(row["case"], row["preset"], row["dp"]) for row in new}
     rows = [row for row in old if (row["case"], row["preset"], row["dp"]) not in renewed] + new
-    rows = [row for row in rows if row["case"].split("/")[0] in names]
+    rows = [row for row in rows if row["case"] in names]
     return sorted(rows, key=lambda row: (row["case"].split("/")[0], row["case"], -float(row["dp"]), row["preset"]))
 
 

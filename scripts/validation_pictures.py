@@ -2,7 +2,7 @@
 """Pictures of the validation page: curves of the runs beside the reference's, drawn by gnuplot.
 
 A measure.py hands over its curves with measure_tools.picture(); they are kept in RUN_FOLDER/curves/NAME.json. The
-finest run of each preset goes into docs/validation/CASE.NAME.svg."""
+finest run of each preset and variant goes into docs/validation/CASE.NAME.svg."""
 import json
 import re
 import shutil
@@ -47,15 +47,17 @@ def draw(path, title, runs):
 
 
 def draw_case(case, runs, folder):
-    """The pictures of a case into `folder`; `runs`: (preset, dp, run folder) of those that ended. Returns their names."""
+    """The pictures of a case into `folder`; `runs`: (preset, variant, dp, run folder) of those that ended. Returns their names."""
     if shutil.which("gnuplot") is None:
         return []
     found = {}
-    for preset, dp, run in sorted(runs, key=lambda r: (r[0], r[1])):
+    variants = sorted({variant for _, variant, _, _ in runs})
+    for preset, variant, dp, run in sorted(runs, key=lambda r: r[:3]):
         for file in sorted((Path(run) / "curves").glob("*.json")):
             kept = found.setdefault(file.stem, {})
-            kept.setdefault(preset, (f"{preset}, dp = {1000.0 * dp:g} mm", STYLES[preset], json.loads(file.read_text())))
+            label = f"{variant + ', ' if variant else ''}{preset}, dp = {1000.0 * dp:g} mm"
+            kept.setdefault((preset, variant), (label, f"{STYLES[preset]} dt {1 + variants.index(variant)}", json.loads(file.read_text())))
     folder.mkdir(parents=True, exist_ok=True)
-    for name, by_preset in found.items():
-        draw(folder / f"{case.name}.{name}.svg", case.title, [by_preset[preset] for preset in sorted(by_preset)])
+    for name, by_run in found.items():
+        draw(folder / f"{case.name}.{name}.svg", case.title, [by_run[run] for run in sorted(by_run)])
     return sorted(found)

@@ -46,7 +46,7 @@ class Crest(unittest.TestCase):
 
 class Table(unittest.TestCase):
     def test_new_rows_replace_those_of_the_same_run_and_order_is_stable(self):
-        old = [row(dp="0.02", error="1"), row(dp="0.04"), row(case="b"), row(case="gone")]
+        old = [row(dp="0.02", error="1"), row(dp="0.04"), row(case="b"), row(case="gone"), row(case="b/gone")]
         merged = page.merge(old, [row(dp="0.02", error="2"), row(case="a", preset="paper", dp="0.04")], {"a", "b"})
         self.assertEqual([(r["case"], r["dp"], r["preset"], r["error"]) for r in merged],
                          [("a", "0.04", "accurate", "0.1"), ("a", "0.04", "paper", "0.1"), ("a", "0.02", "accurate", "2"), ("b", "0.02", "accurate", "0.1")])
