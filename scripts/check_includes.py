@@ -36,7 +36,7 @@ MAY_INCLUDE = {
     "analysis": {"core", "particles", "scene", "io", "geometry"},
 }
 TOOLS = {
-    "mesh2particles": {"core", "particles", "scene", "io", "cli", "geometry"},
+    "mesh2particles": {"core", "particles", "scene", "io", "cli", "geometry", "dem"},
     "gdesp-run": set(SOLVER) | {"scene", "io", "cli"},
     "surge-analyze": {"core", "particles", "scene", "io", "cli", "analysis"},
 }

@@ -178,6 +178,12 @@ def root_mean_square(values):
     return math.sqrt(sum(v * v for v in values) / len(values)) if values else math.nan
 
 
+def best_shift(error, limit, step):
+    """(shift, error there): of the shifts -limit, -limit + step, ... limit the one with the smallest error(shift), the smaller in size of equal ones."""
+    steps = round(limit / step)
+    return min(((k * step, error(k * step)) for k in sorted(range(-steps, steps + 1), key=abs)), key=lambda pair: pair[1])
+
+
 def run_argument():
     if len(sys.argv) != 2:
         sys.exit("usage: measure.py RUN_FOLDER")

@@ -45,7 +45,7 @@ FluidSampler::FluidSampler(std::span<const Vec3d> position, std::span<const floa
     : dp_(dp),
       h_(smoothing_ratio * dp),
       volume_(power(dp, dimensions)),
-      factor_(wendland_factor(h_, dimensions)),
+      factor_(wendland_normalisation(h_, dimensions)),
       grid_(position, 2.0 * h_, dimensions) {
   if (porosity.size() != position.size()) return;
   weight_.resize(position.size());

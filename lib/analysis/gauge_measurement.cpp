@@ -137,7 +137,8 @@ std::string GaugeMeasurement::summary() const {
   std::string text;
   for (std::size_t k = 0; k < gauge_.size(); ++k) {
     const auto t = arrival(k);
-    text += (text.empty() ? "" : "; ") + gauge_[k].name + (t ? ": arrival at t = " + format_number(std::round(*t * 1e3) / 1e3) + " s" : ": no arrival");
+    const bool wet = std::any_of(level_[k].begin(), level_[k].end(), [](double z) { return std::isfinite(z); });
+    text += (text.empty() ? "" : "; ") + gauge_[k].name + (t ? ": arrival at t = " + format_number(std::round(*t * 1e3) / 1e3) + " s" : wet ? ": no arrival" : ": no water there at any time");
   }
   return text;
 }

@@ -173,9 +173,12 @@ Figure MapMeasurement::figure() const {
 std::string MapMeasurement::summary() const {
   std::size_t wet = 0, before = 0;
   for (std::size_t k = 0; k < level_.value.size(); ++k) wet += std::isfinite(level_.value[k]), before += std::isfinite(first_.value[k]);
-  const double area = level_.dx * level_.dx * 1e-6;
+  const double area = level_.dx * level_.dx;
+  const bool large = area * static_cast<double>(wet) >= 1e5;   // m2
+  const double unit = large ? 1e6 : 1.0;
   char text[160];
-  std::snprintf(text, sizeof text, "the water reached %.4g km2, of which %.4g km2 were lake at the start", area * static_cast<double>(wet), area * static_cast<double>(before));
+  std::snprintf(text, sizeof text, "the water reached %.4g %s, of which %.4g %s were water at the start", area * static_cast<double>(wet) / unit, large ? "km2" : "m2",
+                area * static_cast<double>(before) / unit, large ? "km2" : "m2");
   return text;
 }
 

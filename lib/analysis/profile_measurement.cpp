@@ -135,6 +135,7 @@ void ProfileMeasurement::add(FrameView& view, const RowSink& emit) {
 
 void ProfileMeasurement::finish(const RowSink& emit) {
   if (next_time_ >= options_.times.size() || !last_) return;
+  if (options_.times.back() > last_->time * (1.0 + 1e-6)) late_ = options_.times.back();
   next_time_ = options_.times.size();
   curve_.push_back(*last_);  // the wanted time lies past the end: the last frame, with its own time in the table
   emit_curve(curve_.back(), emit);
@@ -187,7 +188,8 @@ std::optional<Panel> ProfileMeasurement::above_still_water(std::size_t shown, do
 }
 
 std::string ProfileMeasurement::summary() const {
-  return std::to_string(curve_.size()) + " profiles of " + std::to_string(point_.size()) + " points along " + line_.name;
+  return std::to_string(curve_.size()) + " profiles of " + std::to_string(point_.size()) + " points along " + line_.name +
+         (late_ ? "; no frame as late as t = " + format_number(*late_) + " s, the last one is taken (t = " + format_number(curve_.back().time) + " s)" : "");
 }
 
 }  // namespace gdesp::analysis

@@ -46,6 +46,7 @@ class ProfileMeasurement : public Measurement {
   std::vector<Curve> curve_;
   std::optional<Curve> last_;           // the frame before, to pick the nearest to a wanted time
   std::size_t next_time_ = 0;
+  std::optional<double> late_;          // a wanted time past the last frame
 };
 
 /// Height of the highest sphere surface over each point; NaN where none. `reach` m: grains' horizontal distance.

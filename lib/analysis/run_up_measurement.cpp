@@ -100,12 +100,13 @@ Panel RunUpMeasurement::against_time() const {
     panel.series.push_back({regions_[k].name == "all" ? "whole shore" : plain_text(regions_[k].name), time_, height_[k], {}, {},
                             MarkStyle::line, {}, static_cast<int>(k)});
   }
-  double highest_splash = 0.0;
-  for (const double s : splash_[0]) highest_splash = std::max(highest_splash, std::isfinite(s) ? s : 0.0);
   panel.y_low = 0.0;
   panel.y_high = maximum_[0].height > 0.0 ? 1.25 * maximum_[0].height : info_.dp;
+  double highest_splash = 0.0;
+  bool shown = false;
+  for (const double s : splash_[0]) highest_splash = std::max(highest_splash, std::isfinite(s) ? s : 0.0), shown = shown || s <= panel.y_high;
   if (highest_splash > panel.y_high) panel.note += "; splash up to " + format_number(std::round(10 * highest_splash) / 10) + " m";
-  if (highest_splash > 0.0) panel.series.push_back({"splash", time_, splash_[0], {}, {}, MarkStyle::points, {}, 7});
+  if (shown) panel.series.push_back({"splash", time_, splash_[0], {}, {}, MarkStyle::points, {}, 7});
   return panel;
 }
 

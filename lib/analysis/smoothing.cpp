@@ -18,7 +18,7 @@ double marginal(double z, int dimensions) {
     const double r = (k + 0.5) * dr;
     sum += wendland_shape(r * r + z * z) * (dimensions == 2 ? 2.0 : 2.0 * std::numbers::pi * r);
   }
-  return wendland_factor(1.0, dimensions) * sum * dr;
+  return wendland_normalisation(1.0, dimensions) * sum * dr;
 }
 
 }  // namespace

@@ -7,8 +7,9 @@
 #pragma once
 
 #include <cmath>
-#include <numbers>
 #include <vector>
+
+#include "core/wendland.hpp"
 
 namespace gdesp::analysis {
 
@@ -20,12 +21,6 @@ inline double wendland_shape(double q2) {
   const double q = std::sqrt(q2);
   const double u = 1.0 - 0.5 * q;
   return u * u * u * u * (2.0 * q + 1.0);
-}
-
-/// a_d / h^d for d = 2 or 3; 1/m^d.
-inline double wendland_factor(double h, int dimensions) {
-  return dimensions == 2 ? 7.0 / (4.0 * std::numbers::pi * h * h)
-                         : 21.0 / (16.0 * std::numbers::pi * h * h * h);
 }
 
 /// What a horizontal layer of fluid of thickness T reads on the vertical axis, in units of h: the weight summed

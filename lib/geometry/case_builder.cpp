@@ -9,6 +9,7 @@
 #include "geometry/body_builder.hpp"
 #include "geometry/checksum.hpp"
 #include "geometry/fitted_layers.hpp"
+#include "geometry/misplaced.hpp"
 #include "geometry/slide_builder.hpp"
 #include "geometry/thin_walls.hpp"
 #include "geometry/water_reach.hpp"
@@ -120,6 +121,24 @@ void set_start_velocity(const Layout& layout, Case& out) {
   }
 }
 
+/// Where a fill without seed began, and where nothing holds it.
+void say_of_fill(const Layout& layout, const FillSpace& space, std::size_t k, const FillReport& fill, Notes& notes) {
+  const FluidFill& asked = layout.scene.fluid.fill[k];
+  char text[300];
+  if (asked.kind == "level" && !asked.seed && asked.polygon.empty() && !layout.parts.terrain.empty()) {
+    std::snprintf(text, sizeof text, "fluid.fill.%zu: without seed or polygon the water is that over the lowest ground (x = %.10g m, y = %.10g m)", k,
+                  fill.lowest_at.x + layout.offset.x, fill.lowest_at.y + layout.offset.y);
+    notes.done.push_back(text);
+  }
+  if (fill.open_edge > 0.0) {
+    std::snprintf(text, sizeof text,
+                  "fluid.fill.%zu: along %.4g m no wall holds the water (edge of the polygon, the domain or the terrain; e.g. at x = %.10g m, "
+                  "y = %.10g m): it will run out there",
+                  k, fill.open_edge, fill.open_edge_at.x + layout.offset.x, fill.open_edge_at.y + layout.offset.y);
+    notes.warnings.push_back(text + level_hint(space, fill.level));
+  }
+}
+
 void fill_fluid(const Layout& layout, const FillSpace& space, Case& out, BuildReport& report) {
   double level = -1e300;
   for (std::size_t k = 0; k < layout.scene.fluid.fill.size(); ++k) {
@@ -127,14 +146,7 @@ void fill_fluid(const Layout& layout, const FillSpace& space, Case& out, BuildRe
     add_fill(out.fluid.position, fill_water(layout.scene.fluid.fill[k], layout.parts.fluid[k], space, layout.parts, "fluid.fill." + std::to_string(k), fill),
              layout.lattice.dp);
     level = std::max(level, fill.level);
-    if (fill.open_edge > 0.0) {
-      char text[256];
-      std::snprintf(text, sizeof text,
-                    "fluid.fill.%zu: along %.4g m no wall holds the water (edge of the polygon, the domain or the terrain; e.g. at x = %.6g m, "
-                    "y = %.6g m): it will run out there",
-                    k, fill.open_edge, fill.open_edge_at.x + layout.offset.x, fill.open_edge_at.y + layout.offset.y);
-      report.notes.warnings.push_back(text);
-    }
+    say_of_fill(layout, space, k, fill, report.notes);
     report.fills.push_back(fill);
   }
   out.still_water_level = out.fluid.position.empty() ? layout.domain.lower.z : level;
@@ -227,10 +239,7 @@ SlideReport add_solid_slide(const Layout& layout, std::size_t k, Case& out, Note
   report.volume = free_volume(layout, part);
   const double whole = signed_volume(part.mesh) / (layout.scene.dimensions == 2 ? extent(bounds(part.mesh)).y : 1.0);
   report.mass = slide.density * whole;
-  if (report.volume < 0.98 * whole) {
-    notes.warnings.push_back("slide \"" + slide.name + "\": " + std::to_string(100.0 * (1.0 - report.volume / whole)) +
-                             " % of its volume lies inside the terrain or a wall");
-  }
+  check_room(layout, k, report.volume, whole, notes);
   Body body = slide.kind == "prescribed" ? prescribed_slide(slide)
                                          : free_body(slide.name, part, slide.density, slide.velocity, layout.scene.dimensions);
   if (slide.kind == "rigid") hold(body, slide.release_at, slide.fixed);
@@ -238,7 +247,7 @@ SlideReport add_solid_slide(const Layout& layout, std::size_t k, Case& out, Note
   return report;
 }
 
-void add_bodies_and_slides(const Layout& layout, Case& out, BuildReport& report, BuildScope scope) {
+void add_bodies_and_slides(const Layout& layout, Case& out, BuildReport& report, const BuildOptions& options) {
   for (std::size_t k = 0; k < layout.parts.moving.size(); ++k) {
     const SolidPart& part = layout.parts.moving[k];
     Body body = moving_body(layout.scene.moving[k], norm(layout.scene.gravity));
@@ -251,7 +260,7 @@ void add_bodies_and_slides(const Layout& layout, Case& out, BuildReport& report,
     if (slide.kind != "granular") {
       report.slides.push_back(add_solid_slide(layout, k, out, report.notes));
     } else {
-      report.slides.push_back(add_granular_slide(layout, k, scope, out.grains, report.notes));
+      report.slides.push_back(add_granular_slide(layout, k, options, out.grains, report.notes));
     }
   }
   for (std::size_t k = 0; k < layout.parts.floating.size(); ++k) {
@@ -276,12 +285,12 @@ void grow_domain(Case& out, double dp) {
 
 }  // namespace
 
-Case build_case(const Scene& scene, BuildReport& report, const std::string& vdb_path,
-                const std::function<void(const std::string&)>& on_stage, BuildScope scope) {
-  Stages stages(report, on_stage);
+Case build_case(const Scene& scene, BuildReport& report, const BuildOptions& options) {
+  Stages stages(report, options.on_stage);
   Case out;
   stages.begin("reading and checking geometry");
   const Layout layout = lay_out(scene, report.notes);
+  warn_of_measures_outside(layout, report.notes);
   out.scene = scene;
   out.offset = layout.offset;
   out.domain = layout.domain;
@@ -297,7 +306,7 @@ Case build_case(const Scene& scene, BuildReport& report, const std::string& vdb_
   const WallSurfaces surfaces = reach ? within_reach(layout.walls, *reach, space) : layout.walls;
   const bool fitted = scene.numerics.wall_layers != "lattice";
   const bool everywhere = scene.numerics.wall_layers == "fitted" && scene.dimensions == 2;
-  std::vector<BandPoint> band = wall_band(layout, surfaces, space, walls, fitted ? fitted_band : boundary_layer_count, vdb_path);
+  std::vector<BandPoint> band = wall_band(layout, surfaces, space, walls, fitted ? fitted_band : boundary_layer_count, options.vdb_path);
   if (reach) keep_reachable(band, space, *reach);
   report.band_voxels = band.size();
   add_tank_layers(layout.parts, layout.lattice, out.boundary);
@@ -312,7 +321,7 @@ Case build_case(const Scene& scene, BuildReport& report, const std::string& vdb_
   const std::size_t last = out.boundary.position.size();
   add_walls(layout, out);
   stages.begin("placing bodies and slides");
-  add_bodies_and_slides(layout, out, report, scope);
+  add_bodies_and_slides(layout, out, report, options);
   const std::vector<double> top = column_tops(space, out.fluid.position);
   const bool moves = everywhere && first < last;
   if (moves) relax_water(out.fluid.position, out.boundary, first, last, space, scene.numerics.smoothing_ratio * scene.dp);

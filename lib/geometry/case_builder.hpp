@@ -3,10 +3,12 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "geometry/boundary_layers.hpp"
+#include "geometry/packing_settlement.hpp"
 #include "geometry/scene_parts.hpp"
 #include "geometry/water_fill.hpp"
 #include "io/case.hpp"
@@ -21,6 +23,7 @@ struct SlideReport {
   double largest_overlap = 0.0;     ///< share of the diameter (granular)
   double mass = 0.0;                ///< kg
   double seconds = 0.0;             ///< of packing
+  std::optional<SettledBed> settled;   ///< granular, relaxation "gravity"
 };
 
 /// What was built, in numbers and words.
@@ -35,10 +38,15 @@ struct BuildReport {
 /// `counts_only`: grains are spread over their slide, as many as were asked for, but not moved apart.
 enum class BuildScope { everything, counts_only };
 
-/// Builds the case. `vdb_path`: where boundary.vdb goes (empty: not written). `on_stage`, if set, is called with the
-/// name of each stage as it begins. Throws Error(input).
-Case build_case(const Scene& scene, BuildReport& report, const std::string& vdb_path = {},
-                const std::function<void(const std::string&)>& on_stage = {}, BuildScope scope = BuildScope::everything);
+struct BuildOptions {
+  std::string vdb_path = {};                                    ///< where boundary.vdb goes; empty: not written
+  std::function<void(const std::string&)> on_stage = {};        ///< called with the name of each stage as it begins
+  BuildScope scope = BuildScope::everything;
+  GrainSettler settler = {};                                    ///< for slides with relaxation "gravity"
+};
+
+/// Builds the case. Throws Error(input), and what the settler throws.
+Case build_case(const Scene& scene, BuildReport& report, const BuildOptions& options = {});
 
 /// The part of build_case that needs no particles: parts in case coordinates, lattice, domain.
 struct Layout {

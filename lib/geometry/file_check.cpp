@@ -86,8 +86,7 @@ void check_mesh(FileReport& r) {
   r.refusal = m.refusal;
 }
 
-void check_raster(FileReport& r) {
-  Raster raster = read_raster(r.path, {});
+void check_raster(FileReport& r, Raster raster) {
   r.kind = "raster";
   for (const std::string& w : raster.warnings) r.found.push_back(w.substr(r.path.size() + 2));
   std::size_t missing = 0;
@@ -132,8 +131,8 @@ FileReport check_file(const std::string& path) {
   try {
     if (is_mesh_name(path)) {
       check_mesh(r);
-    } else if (is_raster(path)) {
-      check_raster(r);
+    } else if (std::optional<Raster> raster = read_if_raster(path, {})) {
+      check_raster(r, std::move(*raster));
     } else {
       check_points(r);
     }

@@ -16,7 +16,7 @@ constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 std::string at(double x, double y) {
   char text[80];
-  std::snprintf(text, sizeof text, "x = %.6g m, y = %.6g m", x, y);
+  std::snprintf(text, sizeof text, "x = %.10g m, y = %.10g m", x, y);
   return text;
 }
 
@@ -62,7 +62,7 @@ class LayerVertices {
     if (index[node] < 0) {
       const double x = layer_.grid.x0 + i * layer_.grid.dx, y = layer_.grid.y0 + j * layer_.grid.dy;
       if (!std::isfinite(layer_.bottom[node])) {
-        throw Error(ErrorKind::input, what_ + ": reaches where there is no terrain (" + at(x, y) + ")");
+        throw Error(ErrorKind::input, what_ + ": reaches where there is no terrain, or none within the domain (" + at(x, y) + ")");
       }
       index[node] = static_cast<std::int32_t>(mesh_.vertex.size());
       mesh_.vertex.push_back({x, y, layer_.bottom[node] + above});

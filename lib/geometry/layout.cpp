@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "geometry/body_builder.hpp"
 #include "geometry/case_builder.hpp"
+#include "geometry/misplaced.hpp"
 #include "geometry/surface_union.hpp"
 
 namespace gdesp::geometry {
@@ -146,8 +147,12 @@ Layout lay_out(const Scene& scene, Notes& notes) {
     keep.lower.z = -1e300;
     keep.upper.z = 1e300;
     if (scene.dimensions == 2) keep.lower.y = -4.0 * scene.dp, keep.upper.y = 4.0 * scene.dp;
+    const Box whole = bounds(out.parts.terrain);
     out.parts.terrain = crop(out.parts.terrain, keep);
-    if (out.parts.terrain.empty()) throw Error(ErrorKind::input, "domain: no terrain lies inside it; are both in the same coordinates?");
+    if (out.parts.terrain.empty()) {
+      throw Error(ErrorKind::input, "domain (" + span_text(out.domain, out.offset) + "): no terrain lies inside it, which spans " + span_text(whole, out.offset) +
+                                        "; are both in the same coordinates?");
+    }
   }
   out.walls = exposed_surfaces(out.parts, notes);
   if (has_tank(out.parts)) warn_of_odd_tanks(out.parts, out.scene, notes);

@@ -33,7 +33,7 @@ using Surface = CGAL::Surface_mesh<Point>;
 
 std::string at(const Vec3d& p) {
   char text[96];
-  std::snprintf(text, sizeof text, "(%.6g, %.6g, %.6g)", p.x, p.y, p.z);
+  std::snprintf(text, sizeof text, "(%.8g, %.8g, %.8g)", p.x, p.y, p.z);
   return text;
 }
 

@@ -123,20 +123,7 @@ void scale(Heightfield& f, const RasterOptions& o) {
   for (auto& z : f.z) z = z * o.vertical_scale + o.vertical_offset;
 }
 
-}  // namespace
-
-bool is_raster(const std::string& path) {
-  gdal_start();
-  const QuietGdal quiet;
-  return open(path) != nullptr;
-}
-
-Raster read_raster(const std::string& path, const RasterOptions& options) {
-  if (!std::filesystem::exists(path)) refuse(path, "no such file");
-  gdal_start();
-  const QuietGdal quiet;   // outlives the data set: closing may warn, too
-  Dataset data = open(path);
-  if (!data) refuse(path, "is no raster that can be read (GeoTIFF, ESRI ASCII, USGS DEM, XYZ grid are), or it is damaged");
+Raster read(Dataset data, const std::string& path, const RasterOptions& options, const QuietGdal& quiet) {
   check_size(*data, path);
   Raster out;
   out.driver = data->GetDriverName() ? data->GetDriverName() : "";
@@ -162,6 +149,23 @@ Raster read_raster(const std::string& path, const RasterOptions& options) {
   scale(out.field, options);
   if (is_empty(bounds(out.field))) refuse(path, "holds no elevation at all (every cell is without data)");
   return out;
+}
+
+}  // namespace
+
+std::optional<Raster> read_if_raster(const std::string& path, const RasterOptions& options) {
+  gdal_start();
+  const QuietGdal quiet;   // outlives the data set: closing may warn, too
+  Dataset data = open(path);
+  if (!data) return std::nullopt;
+  return read(std::move(data), path, options, quiet);
+}
+
+Raster read_raster(const std::string& path, const RasterOptions& options) {
+  if (!std::filesystem::exists(path)) refuse(path, "no such file");
+  std::optional<Raster> raster = read_if_raster(path, options);
+  if (!raster) refuse(path, "is no raster that can be read (GeoTIFF, ESRI ASCII, USGS DEM, XYZ grid are), or it is damaged");
+  return std::move(*raster);
 }
 
 Heightfield merge(const std::vector<Heightfield>& tiles) {
@@ -203,18 +207,19 @@ Heightfield merge(const std::vector<Heightfield>& tiles) {
   return out;
 }
 
-Raster read_tiles(const std::vector<std::string>& paths, const RasterOptions& options) {
-  Raster first = read_raster(paths.front(), options);
-  if (paths.size() == 1) return first;
+std::optional<Raster> read_tiles(const std::vector<std::string>& paths, const RasterOptions& options) {
+  std::optional<Raster> first = read_if_raster(paths.front(), options);
+  if (!first || paths.size() == 1) return first;
   RasterOptions rest = options;
-  rest.target_crs = first.crs;
-  std::vector<Heightfield> tiles = {first.field};
+  rest.target_crs = first->crs;
+  std::vector<Heightfield> tiles = {std::move(first->field)};
   for (std::size_t k = 1; k < paths.size(); ++k) {
-    Raster next = read_raster(paths[k], rest);
-    first.warnings.insert(first.warnings.end(), next.warnings.begin(), next.warnings.end());
-    tiles.push_back(std::move(next.field));
+    std::optional<Raster> next = read_if_raster(paths[k], rest);
+    if (!next) return std::nullopt;
+    first->warnings.insert(first->warnings.end(), next->warnings.begin(), next->warnings.end());
+    tiles.push_back(std::move(next->field));
   }
-  first.field = merge(tiles);
+  first->field = merge(tiles);
   return first;
 }
 

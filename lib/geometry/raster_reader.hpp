@@ -3,6 +3,7 @@
 // as a raster; also gzipped. Points (CSV, XYZ without a grid) are triangulated.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,13 +27,14 @@ struct Raster {
   std::vector<std::string> warnings;   ///< "PATH: ...", of the library that reads
 };
 
-/// Whether GDAL recognises the file as a raster (extension is not looked at).
-bool is_raster(const std::string& path);
-/// Reads one raster. Throws Error(input): missing, not a raster, no data, rotated grid, unknown CRS.
+/// Reads one raster; nullopt where GDAL recognises none (the extension is not looked at). Throws Error(input): no data, rotated grid,
+/// unknown CRS.
+std::optional<Raster> read_if_raster(const std::string& path, const RasterOptions& options);
+/// The same of a file that must be one: throws Error(input) also when it is missing or no raster.
 Raster read_raster(const std::string& path, const RasterOptions& options);
 /// Reads and joins tiles: equal grids are laid side by side, others are sampled onto the finest grid. Where tiles
-/// overlap the earlier file wins.
-Raster read_tiles(const std::vector<std::string>& paths, const RasterOptions& options);
+/// overlap the earlier file wins. nullopt where one of them is no raster.
+std::optional<Raster> read_tiles(const std::vector<std::string>& paths, const RasterOptions& options);
 /// Joins heightfields in the same way.
 Heightfield merge(const std::vector<Heightfield>& tiles);
 

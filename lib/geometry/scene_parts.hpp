@@ -54,7 +54,7 @@ SceneParts load_parts(const Scene& scene, Notes& notes);
 Box bounds(const SceneParts& parts);
 /// Subtracts `offset` from all coordinates.
 void shift(SceneParts& parts, const Vec3d& offset);
-/// The scene's own coordinates (boxes, polygons, seeds, levels, gauges, ...) minus `offset`.
+/// The scene's own coordinates (boxes, polygons, seeds, levels) minus `offset`; what is only measured (gauges, sections, regions) stays.
 Scene shifted(const Scene& scene, const Vec3d& offset);
 
 /// Whether (x, y) lies inside the polygon (even-odd).

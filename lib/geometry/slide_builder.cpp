@@ -6,12 +6,13 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "geometry/misplaced.hpp"
 #include "geometry/sphere_packing.hpp"
 
 namespace gdesp::geometry {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+constexpr double soft = 0.05;   // of a diameter, overlap of grains at rest that is warned of
 
 Box grown(Box box, double by) {
   box.lower -= Vec3d{by, by, by};
@@ -60,8 +61,6 @@ std::vector<bool> in_space(const Layout& layout, const SolidPart& shape, const s
 PackingRequest request_of(const Layout& layout, std::size_t index) {
   const Slide& slide = layout.scene.slides[index];
   const SolidPart& shape = layout.parts.slides[index];
-  double largest = slide.diameter + 3.0 * slide.diameter_deviation;
-  for (const auto& c : slide.sieve) largest = std::max(largest, c.diameter);
   PackingRequest r;
   r.space = [&layout, &shape](const ColumnGrid& columns) {
     const ColumnIntervals inside = shape.box ? solid_intervals(box_mesh(*shape.box), columns) : solid_intervals(shape.mesh, columns);
@@ -69,13 +68,15 @@ PackingRequest request_of(const Layout& layout, std::size_t index) {
   };
   r.contains = [&layout, &shape](const std::vector<Vec3d>& points) { return in_space(layout, shape, points); };
   r.body = shape.mesh;
-  r.walls = bounding_surfaces(layout, shape, 2.0 * largest);
   r.box = bounds(shape.mesh);
   r.diameter = slide.diameter;
   r.deviation = slide.diameter_deviation;
+  r.half_width = slide.diameter_half_width;
   r.sieve = slide.sieve;
+  r.walls = bounding_surfaces(layout, shape, 2.0 * grain_sizes(r).largest);
   r.porosity = slide.porosity;
   r.seed = slide.seed;
+  r.name = "slide \"" + slide.name + "\"";
   r.dimensions = layout.scene.dimensions;
   return r;
 }
@@ -91,14 +92,41 @@ void warn_of_packing(const Packing& packing, const Slide& slide, Notes& notes) {
   }
 }
 
+SettledBed settle(const PackingRequest& request, const Slide& slide, const GrainSettler& settler, Packing& packing, Notes& notes) {
+  const std::string name = "slide \"" + slide.name + "\": ";
+  if (!settler) throw Error(ErrorKind::usage, name + "relaxation \"gravity\" needs the solver, which is not here");
+  const std::size_t left_out = packing.left_out;
+  const SettledBed bed = settle_packing(request, slide.density, settler, packing);
+  if (packing.left_out > left_out) {
+    notes.warnings.push_back(name + std::to_string(packing.left_out - left_out) + " grains slipped out of its shape while they settled and were left out");
+  }
+  if (!bed.settlement.at_rest) {
+    notes.warnings.push_back(name + "not at rest after " + std::to_string(bed.settlement.time) + " s of settling: " + std::to_string(bed.settlement.speed) +
+                             " m/s root mean square is left");
+  }
+  if (packing.largest_overlap > soft) {
+    notes.warnings.push_back(name + "its own weight presses grains " + std::to_string(100.0 * packing.largest_overlap) +
+                             " % of a diameter into each other: the contact is too soft for it (contact.youngs_modulus, contact.stiffness)");
+  }
+  return bed;
+}
+
 }  // namespace
 
-SlideReport add_granular_slide(const Layout& layout, std::size_t index, BuildScope scope, GrainTable& grains, Notes& notes) {
+SlideReport add_granular_slide(const Layout& layout, std::size_t index, const BuildOptions& how, GrainTable& grains, Notes& notes) {
   const auto start = std::chrono::steady_clock::now();
   const Slide& slide = layout.scene.slides[index];
-  const PackingRequest request = request_of(layout, index);
-  const Packing packing = scope == BuildScope::everything ? pack_spheres(request) : scatter_spheres(request);
+  const SolidPart& shape = layout.parts.slides[index];
+  const double thickness = layout.scene.dimensions == 2 ? extent(bounds(shape.mesh)).y : 1.0;
+  PackingRequest request = request_of(layout, index);
+  request.volume = space_volume(request);
+  check_room(layout, index, request.volume, signed_volume(shape.mesh) / thickness, notes);
+  const bool packed = how.scope == BuildScope::everything, settles = slide.relaxation == "gravity";
+  Packing packing = packed ? pack_spheres(request) : scatter_spheres(request);
+  if (packed) warn_of_packing(packing, slide, notes);
   SlideReport report;
+  if (packed && settles) report.settled = settle(request, slide, how.settler, packing, notes);
+  if (!packed && settles) notes.done.push_back("slide \"" + slide.name + "\": its packing settles under gravity before the case is written (relaxation)");
   report.name = slide.name;
   report.kind = slide.kind;
   report.grains = packing.position.size();
@@ -106,15 +134,13 @@ SlideReport add_granular_slide(const Layout& layout, std::size_t index, BuildSco
   report.porosity = packing.porosity;
   report.largest_overlap = packing.largest_overlap;
   for (std::size_t k = 0; k < packing.position.size(); ++k) {
-    const double d = packing.diameter[k];
-    report.mass += slide.density * (layout.scene.dimensions == 2 ? pi * d * d / 4.0 : pi * d * d * d / 6.0);
+    report.mass += slide.density * grain_volume(packing.diameter[k], layout.scene.dimensions);
     grains.position.push_back(packing.position[k]);
     grains.diameter.push_back(packing.diameter[k]);
     grains.density.push_back(static_cast<float>(slide.density));
     grains.velocity.push_back(static_cast<Vec3f>(slide.velocity));
     grains.group.push_back(static_cast<std::int32_t>(index));
   }
-  if (scope == BuildScope::everything) warn_of_packing(packing, slide, notes);
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "core/error.hpp"
@@ -12,27 +13,6 @@
 
 namespace gdesp::geometry {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
-
-double grain_volume(double d, int dimensions) { return dimensions == 2 ? pi * d * d / 4.0 : pi * d * d * d / 6.0; }
-
-/// The part of the body's volume that is free, by columns; the body's own volume is known exactly.
-double space_volume(const PackingRequest& r) {
-  const Vec3d size = extent(r.box);
-  const double widest = r.dimensions == 2 ? size.x : std::max(size.x, size.y);
-  ColumnGrid grid = covering_columns(r.box, widest / 800.0);
-  if (r.dimensions == 2) grid.y0 = 0.0, grid.ny = 1;
-  const auto length = [](const ColumnIntervals& c) {
-    double sum = 0.0;
-    for (const auto& i : c.interval) sum += i.upper - i.lower;
-    return sum;
-  };
-  const double whole = length(solid_intervals(r.body, grid)), part = length(r.space(grid));
-  if (!(whole > 0.0)) return 0.0;
-  const double exact = signed_volume(r.body) / (r.dimensions == 2 ? size.y : 1.0);
-  return exact * part / whole;
-}
 
 /// Diameters that together hold the solid's share of the volume, in random order.
 std::vector<float> draw_diameters(const PackingRequest& r, double solid_volume, Random& random) {
@@ -44,11 +24,11 @@ std::vector<float> draw_diameters(const PackingRequest& r, double solid_volume, 
       const double n = solid_volume * c.mass_share / shares / grain_volume(c.diameter, r.dimensions);
       out.insert(out.end(), static_cast<std::size_t>(std::llround(n)), static_cast<float>(c.diameter));
     }
-  } else if (r.deviation <= 0.0) {
+  } else if (r.deviation <= 0.0 && r.half_width <= 0.0) {
     out.assign(static_cast<std::size_t>(std::llround(solid_volume / grain_volume(r.diameter, r.dimensions))), static_cast<float>(r.diameter));
   } else {
     for (double filled = 0.0; filled < solid_volume;) {
-      const double d = r.diameter + r.deviation * std::clamp(random.normal(), -3.0, 3.0);
+      const double d = r.diameter + (r.half_width > 0.0 ? r.half_width * random.signed_unit() : r.deviation * std::clamp(random.normal(), -3.0, 3.0));
       const double v = grain_volume(d, r.dimensions);
       if (filled + 0.5 * v > solid_volume) break;
       filled += v;
@@ -115,25 +95,16 @@ void jitter(std::vector<Vec3d>& sites, const TriangleTree& walls, double reach, 
   }
 }
 
-struct Sizes { double mean, smallest, largest; };   // m
-
-Sizes sizes_of(const PackingRequest& r) {
-  if (r.sieve.empty()) return {r.diameter, r.diameter - 3.0 * r.deviation, r.diameter + 3.0 * r.deviation};
-  Sizes s{r.sieve.front().diameter, r.sieve.front().diameter, r.sieve.front().diameter};
-  for (const auto& c : r.sieve) s.smallest = std::min(s.smallest, c.diameter), s.largest = std::max(s.largest, c.diameter);
-  return s;
-}
-
 void require_one(bool any, const PackingRequest& r, double volume) {
-  if (!any) throw Error(ErrorKind::input, "no grain of diameter " + std::to_string(sizes_of(r).mean) + " m fits a slide of " + std::to_string(volume) + " m3");
+  if (!any) throw Error(ErrorKind::input, r.name + (r.name.empty() ? "" : ": ") + "no grain of diameter " + std::to_string(grain_sizes(r).mean) + " m fits its " + std::to_string(volume) + (r.dimensions == 2 ? " m2" : " m3"));
 }
 
 /// Spheres spread over the space, overlapping; out.left_out are those without a site.
 void scatter(const PackingRequest& r, const TriangleTree& walls, Packing& out) {
   Random random(r.seed);
-  out.volume = space_volume(r);
+  out.volume = r.volume > 0.0 ? r.volume : space_volume(r);
   out.diameter = draw_diameters(r, out.volume * (1.0 - r.porosity), random);
-  const double smallest = sizes_of(r).smallest, inset = 0.4 * smallest;
+  const double smallest = grain_sizes(r).smallest, inset = 0.4 * smallest;
   const std::size_t wanted = out.diameter.size();
   if (wanted > 0) out.position = enough_sites(r, walls, out.volume, wanted, inset);
   require_one(!out.position.empty(), r, out.volume);
@@ -143,13 +114,40 @@ void scatter(const PackingRequest& r, const TriangleTree& walls, Packing& out) {
   jitter(out.position, walls, 0.25 * smallest, inset, r.dimensions, random);
 }
 
-void set_porosity(Packing& p, int dimensions) {
+double porosity_of(const PackingRequest& r, const Packing& p) {
   double solid = 0.0;
-  for (const float d : p.diameter) solid += grain_volume(d, dimensions);
-  p.porosity = 1.0 - solid / p.volume;
+  for (const float d : p.diameter) solid += grain_volume(d, r.dimensions);
+  return 1.0 - solid / p.volume;
 }
 
-/// In the plane the faces towards y are no walls: they may be nearer than a disc's radius.
+}  // namespace
+
+double space_volume(const PackingRequest& r) {
+  const Vec3d size = extent(r.box);
+  const double widest = r.dimensions == 2 ? size.x : std::max(size.x, size.y);
+  ColumnGrid grid = covering_columns(r.box, widest / 800.0);
+  if (r.dimensions == 2) grid.y0 = 0.0, grid.ny = 1;
+  const auto length = [](const ColumnIntervals& c) {
+    double sum = 0.0;
+    for (const auto& i : c.interval) sum += i.upper - i.lower;
+    return sum;
+  };
+  const double whole = length(solid_intervals(r.body, grid)), part = length(r.space(grid));
+  if (!(whole > 0.0)) return 0.0;
+  const double exact = signed_volume(r.body) / (r.dimensions == 2 ? size.y : 1.0);
+  return exact * part / whole;
+}
+
+double grain_volume(double d, int dimensions) { return std::numbers::pi * (dimensions == 2 ? d * d / 4.0 : d * d * d / 6.0); }
+
+GrainSizes grain_sizes(const PackingRequest& r) {
+  const double reach = std::max(3.0 * r.deviation, r.half_width);
+  if (r.sieve.empty()) return {r.diameter, r.diameter - reach, r.diameter + reach};
+  GrainSizes s{r.sieve.front().diameter, r.sieve.front().diameter, r.sieve.front().diameter};
+  for (const auto& c : r.sieve) s.smallest = std::min(s.smallest, c.diameter), s.largest = std::max(s.largest, c.diameter);
+  return s;
+}
+
 TriangleMesh bounding_walls(const PackingRequest& r) {
   TriangleMesh walls = r.walls;
   if (r.dimensions != 2) return walls;
@@ -161,12 +159,10 @@ TriangleMesh bounding_walls(const PackingRequest& r) {
   return walls;
 }
 
-}  // namespace
-
 Packing scatter_spheres(const PackingRequest& r) {
   Packing out;
   scatter(r, TriangleTree(bounding_walls(r)), out);
-  set_porosity(out, r.dimensions);
+  out.porosity = porosity_of(r, out);
   return out;
 }
 
@@ -175,7 +171,7 @@ Packing pack_spheres(const PackingRequest& r) {
   const TriangleTree walls(bounding_walls(r));
   scatter(r, walls, out);
   const std::size_t wanted = out.position.size() + out.left_out;
-  const double largest = sizes_of(r).largest;
+  const double largest = grain_sizes(r).largest;
   PackingState state{std::move(out.position), std::move(out.diameter), r.dimensions};
   out.iterations = relax_overlaps(state, walls, largest);
   drop_misplaced(state, walls, r.contains, largest);
@@ -184,8 +180,13 @@ Packing pack_spheres(const PackingRequest& r) {
   out.position = std::move(state.position);
   out.diameter = std::move(state.diameter);
   require_one(!out.position.empty(), r, out.volume);
-  set_porosity(out, r.dimensions);
+  out.porosity = porosity_of(r, out);
   return out;
+}
+
+void measure(const PackingRequest& r, Packing& p) {
+  p.largest_overlap = largest_overlap({p.position, p.diameter, r.dimensions}, TriangleTree(bounding_walls(r)), grain_sizes(r).largest);
+  p.porosity = porosity_of(r, p);
 }
 
 }  // namespace gdesp::geometry

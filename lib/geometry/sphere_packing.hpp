@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "geometry/columns.hpp"
@@ -21,8 +22,11 @@ struct PackingRequest {
   TriangleMesh body;               ///< the closed body whose free part the space is
   TriangleMesh walls;              ///< every surface that bounds the space, its normals into the space
   Box box;                         ///< m, around the space
+  double volume = 0.0;             ///< m3 (m2 in the plane), of the space; 0: space_volume() is asked
+  std::string name;                ///< in messages
   double diameter = 0.0;           ///< m
-  double deviation = 0.0;          ///< m, standard deviation; cut at three
+  double deviation = 0.0;          ///< m, standard deviation of a normal distribution; cut at three
+  double half_width = 0.0;         ///< m, of a uniform distribution (instead of a normal one)
   std::vector<DiameterClass> sieve;
   double porosity = 0.42;
   std::uint64_t seed = 1;
@@ -44,5 +48,17 @@ Packing pack_spheres(const PackingRequest& request);
 
 /// As many spheres of the same diameters, spread over the space but not moved apart: what an estimate needs. Throws likewise.
 Packing scatter_spheres(const PackingRequest& request);
+
+/// m3 (m2): the part of the body's volume that is free, by columns; the body's own volume is known exactly.
+double space_volume(const PackingRequest& request);
+struct GrainSizes { double mean, smallest, largest; };   ///< m
+/// Of the distribution asked for: a sieve's mean is that of its first class.
+GrainSizes grain_sizes(const PackingRequest& request);
+/// The walls that grains feel: in the plane the faces towards y are none, they may be nearer than a disc's radius.
+TriangleMesh bounding_walls(const PackingRequest& request);
+/// Porosity and largest overlap of a packing as it is now.
+void measure(const PackingRequest& request, Packing& packing);
+/// m3, of a sphere; m2, of a disc.
+double grain_volume(double diameter, int dimensions);
 
 }  // namespace gdesp::geometry

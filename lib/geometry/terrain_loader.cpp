@@ -10,6 +10,7 @@
 #include "geometry/gdal_support.hpp"
 #include "geometry/mesh_check.hpp"
 #include "geometry/mesh_reader.hpp"
+#include "geometry/misplaced.hpp"
 #include "geometry/raster_reader.hpp"
 
 namespace gdesp::geometry {
@@ -78,10 +79,10 @@ std::vector<Vec3d> bathymetry_points(const Scene& scene, const std::string& crs,
   o.vertical_offset = t.bathymetry_offset;
   o.crs = t.bathymetry_crs;
   o.target_crs = crs;
-  if (!is_raster(t.bathymetry)) return read_points(t.bathymetry, o);
-  const Raster raster = read_raster(t.bathymetry, o);
-  pass_on(raster, notes);
-  return to_mesh(raster.field).vertex;
+  const std::optional<Raster> raster = read_if_raster(t.bathymetry, o);
+  if (!raster) return read_points(t.bathymetry, o);
+  pass_on(*raster, notes);
+  return to_mesh(raster->field).vertex;
 }
 
 /// Lake bed from the points, tied to the dry shore: only nodes at or below the water are changed.
@@ -90,7 +91,12 @@ void burn_bathymetry(Heightfield& f, const Scene& scene, const std::string& crs,
   const double limit = wet_limit(scene);
   const std::size_t given = points.size();
   Box lake = empty_box();
-  for (const auto& p : points) extend(lake, p);
+  std::size_t dry = 0;
+  for (const auto& p : points) extend(lake, p), dry += p.z > limit;
+  if (2 * dry > given) {
+    notes.warnings.push_back(scene.terrain.bathymetry + ": " + std::to_string(dry) + " of its " + std::to_string(given) +
+                             " points lie above the water: check sign and datum (terrain.bathymetry_scale, terrain.bathymetry_offset)");
+  }
   const double margin = 0.25 * std::max(extent(lake).x, extent(lake).y);
   for (int j = 0; j < f.ny; ++j) {
     for (int i = 0; i < f.nx; ++i) {
@@ -177,35 +183,32 @@ std::vector<double> heights_on_grid(const TriangleMesh& sheet, const Heightfield
 
 TerrainSheet load_sheet(const std::string& path, const Terrain& t, const std::string& target_crs, Notes& notes) {
   if (is_mesh_name(path)) return from_meshes({path}, t, notes);
-  if (!is_raster(path)) return from_points({path}, t, target_crs);
-  const Raster raster = read_raster(path, raster_options(t, target_crs));
-  pass_on(raster, notes);
+  const std::optional<Raster> raster = read_if_raster(path, raster_options(t, target_crs));
+  if (!raster) return from_points({path}, t, target_crs);
+  pass_on(*raster, notes);
   TerrainSheet sheet;
-  sheet.mesh = to_mesh(raster.field);
-  sheet.spacing = std::sqrt(raster.field.dx * raster.field.dy);
-  sheet.crs = raster.crs;
+  sheet.mesh = to_mesh(raster->field);
+  sheet.spacing = std::sqrt(raster->field.dx * raster->field.dy);
+  sheet.crs = raster->crs;
   return sheet;
 }
 
 TerrainSheet load_terrain(const Scene& scene, Notes& notes) {
   const Terrain& t = scene.terrain;
   TerrainSheet sheet;
-  std::size_t meshes = 0, rasters = 0;
-  for (const auto& f : t.files) {
-    if (is_mesh_name(f)) ++meshes; else if (is_raster(f)) ++rasters;
-  }
+  const auto meshes = static_cast<std::size_t>(std::count_if(t.files.begin(), t.files.end(), is_mesh_name));
   if (meshes != 0 && meshes != t.files.size()) {
     throw Error(ErrorKind::input, "terrain.files: meshes and rasters cannot be mixed; give the one or the other");
   }
-  if (rasters == t.files.size()) {
-    Raster raster = read_tiles(t.files, raster_options(t, ""));
-    pass_on(raster, notes);
-    if (const std::size_t n = fill_small_gaps(raster.field)) notes.done.push_back(t.files.front() + ": " + std::to_string(n) + " nodes without data, enclosed and few, filled from their rim");
-    if (!t.bathymetry.empty()) burn_bathymetry(raster.field, scene, raster.crs, notes);
-    sheet.mesh = scene.domain ? to_mesh(raster.field, &*scene.domain) : to_mesh(raster.field);
-    sheet.spacing = std::sqrt(raster.field.dx * raster.field.dy);
-    sheet.crs = raster.crs;
-    if (sheet.mesh.empty()) throw Error(ErrorKind::input, t.files.front() + ": no elevation inside the domain");
+  if (std::optional<Raster> raster; meshes == 0 && (raster = read_tiles(t.files, raster_options(t, "")))) {
+    pass_on(*raster, notes);
+    Heightfield& field = raster->field;
+    if (const std::size_t n = fill_small_gaps(field)) notes.done.push_back(t.files.front() + ": " + std::to_string(n) + " nodes without data, enclosed and few, filled from their rim");
+    if (!t.bathymetry.empty()) burn_bathymetry(field, scene, raster->crs, notes);
+    sheet.mesh = scene.domain ? to_mesh(field, &*scene.domain) : to_mesh(field);
+    sheet.spacing = std::sqrt(field.dx * field.dy);
+    sheet.crs = raster->crs;
+    if (sheet.mesh.empty()) throw Error(ErrorKind::input, t.files.front() + ": no elevation inside the domain (" + span_text(*scene.domain, {}) + "); the terrain spans " + span_text(bounds(field), {}));
     return sheet;
   }
   sheet = meshes ? from_meshes(t.files, t, notes) : from_points(t.files, t, "");

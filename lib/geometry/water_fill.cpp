@@ -216,7 +216,11 @@ class Basin {
       for (std::size_t k = open_.first[c]; k < open_.first[c + 1]; ++k) {
         if (!reached_[k]) continue;
         out.interval.push_back(open_.interval[k]);
-        report.lowest_ground = std::min(report.lowest_ground, open_.interval[k].lower);
+        if (open_.interval[k].lower < report.lowest_ground) {
+          const ColumnGrid& grid = s_.columns.grid;
+          report.lowest_ground = open_.interval[k].lower;
+          report.lowest_at = {grid.x(static_cast<int>(c) % grid.nx), grid.y(static_cast<int>(c) / grid.nx), report.lowest_ground};
+        }
         surface += open_.interval[k].upper == fill_.level;
       }
       out.first[c + 1] = out.interval.size();

@@ -23,6 +23,7 @@ struct FillReport {
   double surface_area = 0.0;        ///< m2, of the water surface (level fills)
   double level = 0.0;               ///< m, top of the fill
   double lowest_ground = 0.0;       ///< m, level fills
+  Vec3d lowest_at;                  ///< m, such a place
   double open_edge = 0.0;           ///< m, length of the basin's rim that is held by no wall (polygon or edge of the terrain)
   Vec3d open_edge_at;               ///< one such place
 };

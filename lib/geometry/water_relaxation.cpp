@@ -6,12 +6,12 @@
 #include <set>
 #include <tuple>
 
+#include "core/wendland.hpp"
 #include "geometry/point_cells.hpp"
 
 namespace gdesp::geometry {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double moving_reach = 4.0;    // dp, of fitted walls
 constexpr double pace = 0.2;            // b of the step
 constexpr double longest_step = 0.1;    // dp
@@ -25,8 +25,7 @@ class WaterRelaxation {
  public:
   WaterRelaxation(std::vector<Vec3d>& water, const BoundaryTable& boundary, std::size_t first, std::size_t last, const FillSpace& space, double h)
       : water_(water), space_(space), dp_(space.lattice.dp), h_(h), flat_(space.lattice.dimensions == 2) {
-    const double alpha = flat_ ? 7.0 / (4.0 * pi * h * h) : 21.0 / (16.0 * pi * h * h * h);
-    slope_ = std::pow(dp_, space.lattice.dimensions) * 5.0 * alpha / (h * h);
+    slope_ = std::pow(dp_, space.lattice.dimensions) * 5.0 * wendland_normalisation(h, space.lattice.dimensions) / (h * h);
     all_ = water;
     all_.insert(all_.end(), boundary.position.begin(), boundary.position.end());
     const std::vector<Vec3d> fitted(boundary.position.begin() + static_cast<std::ptrdiff_t>(first), boundary.position.begin() + static_cast<std::ptrdiff_t>(last));

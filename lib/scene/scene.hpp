@@ -79,10 +79,12 @@ struct Slide {
   double density = 2650.0;                ///< kg/m3 of the grains (granular) or of the body
   double diameter = 0.0;                  ///< m, granular
   double diameter_deviation = 0.0;        ///< m, normal distribution
+  double diameter_half_width = 0.0;       ///< m, uniform distribution
   std::vector<DiameterClass> sieve;       ///< overrides diameter
   double real_diameter = 0.0;             ///< m, for drag in coarse-grained runs; 0: the grain's own
   double porosity = 0.42;
   std::uint64_t seed = 1;                 ///< of the packing
+  std::string relaxation = "in-place";    ///< of the packing: "in-place" | "gravity"
   double release_at = 0.0;                ///< s; held before
   Vec3d velocity;                         ///< m/s at the start
   std::vector<std::string> fixed;         ///< rigid: "x", "y", "z", "rotation"

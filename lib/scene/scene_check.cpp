@@ -76,6 +76,10 @@ void check_slide(const KeySources& sources, const std::string& key, const Slide&
     if (s.diameter_deviation > 0.0 && s.diameter_deviation >= s.diameter / 3.0)
       fail(sources, key + ".diameter_deviation",
            "must be below a third of diameter, or diameters would reach zero: give a sieve instead");
+    if (s.diameter_half_width > 0.0 && s.diameter_half_width >= s.diameter)
+      fail(sources, key + ".diameter_half_width", "must be below diameter, or diameters would reach zero");
+    if (s.diameter_half_width > 0.0 && s.diameter_deviation > 0.0)
+      fail(sources, key + ".diameter_half_width", "a uniform distribution, and diameter_deviation a normal one: give one of them");
     if (s.porosity < 0.2 || s.porosity > 0.95)
       fail(sources, key + ".porosity", std::to_string(s.porosity) + " cannot be packed; valid: 0.2 to 0.95");
   }

@@ -85,10 +85,14 @@ void describe_slide(V& v, Slide& s) {
   v.number({"diameter", "m", "grain diameter (granular: required, or sieve)"}, s.diameter, not_negative);
   v.number({"diameter_deviation", "m", "standard deviation of a normal distribution of diameters"},
            s.diameter_deviation, not_negative);
+  v.number({"diameter_half_width", "m", "half width of a uniform distribution of diameters (by number), instead of a normal one"},
+           s.diameter_half_width, not_negative);
   v.number({"real_diameter", "m", "grain diameter that the drag law sees in coarse-grained runs; 0: the grain's own"},
            s.real_diameter, not_negative);
   v.number({"porosity", "1", "share of voids in the packing"}, s.porosity, share);
   v.integer({"seed", "", "of the random packing"}, s.seed, 0, std::uint64_t{1} << 62);
+  v.choice({"relaxation", "", "how the packing comes to rest: overlaps moved apart where it is, or falling and settling within the shape by contact"},
+           s.relaxation, {"in-place", "gravity"});
   v.number({"release_at", "s", "held in place before"}, s.release_at, not_negative);
   v.vector({"velocity", "m/s", "velocity at the start"}, s.velocity);
   v.choices({"fixed", "", "motions that the body cannot make (kind rigid)"}, s.fixed, fixed_motions);

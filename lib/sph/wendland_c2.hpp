@@ -14,15 +14,11 @@
 #include <cmath>
 
 #include "core/host_device.hpp"
+#include "core/wendland.hpp"
 
 namespace gdesp::sph {
 
-inline constexpr double pi = 3.14159265358979323846;
-
-/// alpha, 1/m^dimensions.
-inline double wendland_normalisation(double h, int dimensions) {
-  return dimensions == 2 ? 7.0 / (4.0 * pi * h * h) : 21.0 / (16.0 * pi * h * h * h);
-}
+using gdesp::wendland_normalisation;   // alpha
 
 /// W / alpha at t.
 template <class Real>

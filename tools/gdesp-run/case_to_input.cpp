@@ -133,21 +133,6 @@ CouplingParameters coupling_parameters(const Scene& s) {
   return p;
 }
 
-dem::ContactParameters contact_parameters(const Contact& c) {
-  dem::ContactParameters p;
-  p.law = c.law == "linear" ? dem::ContactLawKind::linear : dem::ContactLawKind::hertz;
-  p.youngs_modulus = c.youngs_modulus;
-  p.poisson_ratio = c.poisson_ratio;
-  p.stiffness = c.stiffness;
-  p.stiffness_ratio = c.stiffness_ratio;
-  p.restitution = c.restitution;
-  p.friction = c.friction;
-  p.wall_friction = c.wall_friction;
-  p.rolling_friction = c.rolling_friction;
-  p.cohesion = c.cohesion;
-  return p;
-}
-
 TimeParameters time_parameters(const Numerics& n) {
   TimeParameters p;
   p.scheme = n.time_scheme == "verlet" ? TimeScheme::verlet : TimeScheme::split;
@@ -207,6 +192,21 @@ ExpectedSpeed expected_speed(const Case& c) {
 bool viscosity_is_without_effect(const Scene& s) {
   return s.economy.viscosity && s.numerics.viscosity == "morris" &&
          std::sqrt(s.fluid.kinematic_viscosity * s.time.end) < unresolved_layer * s.dp;
+}
+
+dem::ContactParameters contact_parameters(const Contact& c) {
+  dem::ContactParameters p;
+  p.law = c.law == "linear" ? dem::ContactLawKind::linear : dem::ContactLawKind::hertz;
+  p.youngs_modulus = c.youngs_modulus;
+  p.poisson_ratio = c.poisson_ratio;
+  p.stiffness = c.stiffness;
+  p.stiffness_ratio = c.stiffness_ratio;
+  p.restitution = c.restitution;
+  p.friction = c.friction;
+  p.wall_friction = c.wall_friction;
+  p.rolling_friction = c.rolling_friction;
+  p.cohesion = c.cohesion;
+  return p;
 }
 
 SimulationInput case_to_input(Case& c) {

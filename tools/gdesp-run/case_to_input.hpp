@@ -24,6 +24,9 @@ ExpectedSpeed expected_speed(const Case& c);
 /// it, the run leaves it out (economy.viscosity).
 bool viscosity_is_without_effect(const Scene& scene);
 
+/// The contact of grains as the solver has it.
+dem::ContactParameters contact_parameters(const Contact& contact);
+
 /// Everything the solver needs. Lengths and times as in the scene; the sound speed is numerics.sound_speed or ten
 /// times the expected speed (density errors below about 1 %, Monaghan 1994, doi:10.1006/jcph.1994.1034).
 /// The particle tables are moved out of `c`. Throws Error(input) for an option the solver does not have.

@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "case_to_input.hpp"
+#include "dem/settle_grains.hpp"
 #include "geometry/case_builder.hpp"
 #include "geometry/preview.hpp"
 #include "io/case.hpp"
@@ -59,6 +61,10 @@ void tell(const Case& c, const geometry::BuildReport& report) {
     if (s.kind == "granular") {
       text += ", " + std::to_string(s.grains) + " grains, porosity " + number(s.porosity) + ", largest overlap " + number(100.0 * s.largest_overlap) +
               " % of a diameter, packed in " + number(s.seconds) + " s";
+      if (s.settled) {
+        text += "; settled under gravity for " + number(s.settled->settlement.time) + " s: fell by " + number(s.settled->fall) + " m (mean), porosity of the bed " +
+                number(s.settled->porosity);
+      }
     }
     cli::info(text);
   }
@@ -97,6 +103,7 @@ nlohmann::ordered_json record_of(const std::string& path, const Case& c, const g
   for (const auto& s : report.slides) {
     r["slides"].push_back({{"name", s.name}, {"kind", s.kind}, {"volume", s.volume}, {"mass", s.mass}, {"grains", s.grains},
                            {"porosity", s.porosity}, {"largest_overlap", s.largest_overlap}});
+    if (s.settled) r["slides"].back().update({{"settling_time", s.settled->settlement.time}, {"fall", s.settled->fall}, {"bed_porosity", s.settled->porosity}});
   }
   r["offset"] = {c.offset.x, c.offset.y, c.offset.z};
   r["warnings"] = report.notes.warnings.size();
@@ -109,6 +116,16 @@ void check_output(const MeshOptions& o) {
   if (fs::exists(o.output) && !o.force) throw Error(ErrorKind::usage, o.output + ": exists already; --force replaces it");
 }
 
+/// Builds; where that fails, what was warned of before is said with it.
+Case build_or_warn(const Scene& scene, geometry::BuildReport& report, const geometry::BuildOptions& how) {
+  try {
+    return geometry::build_case(scene, report, how);
+  } catch (...) {
+    for (const auto& w : report.notes.warnings) cli::warning(w);
+    throw;
+  }
+}
+
 }  // namespace
 
 int build(const MeshOptions& o) {
@@ -118,7 +135,13 @@ int build(const MeshOptions& o) {
   const Workspace workspace(o.output);
   const std::string vdb = workspace.file("boundary.vdb");
   geometry::BuildReport report;
-  const Case built = geometry::build_case(scene, report, vdb, [](const std::string& stage) { cli::detail(stage + " ..."); });
+  geometry::BuildOptions how;
+  how.vdb_path = vdb;
+  how.on_stage = [](const std::string& stage) { cli::detail(stage + " ..."); };
+  how.settler = [&scene](GrainTable& grains, const TriangleTable& walls) {
+    return dem::settle_grains(grains, walls, {contact_parameters(scene.contact), scene.gravity, scene.dimensions});
+  };
+  const Case built = build_or_warn(scene, report, how);
   if (!o.preview.empty()) geometry::write_preview(built, o.preview);
   write_case(o.output, built, o.force, {vdb});
   tell(built, report);

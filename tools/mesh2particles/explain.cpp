@@ -27,7 +27,7 @@ void print_counts(const Case& c) {
 
 int explain(const MeshOptions& o) {
   geometry::BuildReport report;
-  Case built = geometry::build_case(read_scene(o.scene, o.overrides), report, {}, {}, geometry::BuildScope::counts_only);
+  Case built = geometry::build_case(read_scene(o.scene, o.overrides), report, {.scope = geometry::BuildScope::counts_only});
   print_counts(built);
   for (const auto& note : report.notes.done) std::cout << "note: " << note << "\n";
   for (const auto& warning : report.notes.warnings) std::cout << "warning: " << warning << "\n";

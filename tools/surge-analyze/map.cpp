@@ -24,8 +24,9 @@ int run_map(const std::vector<std::string>& arguments) {
       "  arrival    first time the level departs from its first reading by the threshold, linear between frames; for\n"
       "             dry ground the first frame in which it is wet, s\n"
       "  run_up_line  outline of what was ever wet, as lines with the ground's elevation\n"
-      "Connected water only. Cells where nothing was are -9999. Flow depth, arrival and the limit of inundation as in the\n"
-      "Tsunami Glossary, IOC Technical Series 85, UNESCO 2019.\n";
+      "Connected water only. Cells where nothing was are -9999. The run-up line is the inundation line (inland limit of\n"
+      "wetting) of the Tsunami Glossary, IOC Technical Series 85, UNESCO 2013; its arrival time is another one: that of the\n"
+      "first maximum.\n";
   if (!line.parse(arguments, definition, "surge-analyze map lake.run -o maps/lake --plot maps/lake.png")) return 0;
   analysis::MapOptions options;
   options.cell = line.get<double>("cell");

@@ -15,8 +15,8 @@ int run_slide(const std::vector<std::string>& arguments) {
       "Centre of mass and its velocity (grains: mass-weighted; rigid body: centre of its closed surface, velocity from the\n"
       "frame before); travel of the front since the first frame (the place beyond which a stated fraction lies);\n"
       "submerged: share of the solids' volume below the free surface over it (spherical caps at the water line).\n"
-      "Front and deposit of granular slides as measured by Mohammed and Fritz 2012, J. Geophys. Res. 117, C11015, doi\n"
-      "10.1029/2011JC007850. For the deposit's profile see: surge-analyze profile, column z_solids.\n";
+      "Experiments with granular slides: cf. McFall and Fritz 2016, Proc. R. Soc. A 472, 20160052, doi\n"
+      "10.1098/rspa.2016.0052. For the deposit's profile see: surge-analyze profile, column z_solids.\n";
   if (!line.parse(arguments, definition, "surge-analyze slide lake.run --plot slide.svg")) return 0;
   analysis::SlideOptions options;
   if (line.has("direction")) options.direction = analysis::parse_direction(line.get<std::string>("direction"));

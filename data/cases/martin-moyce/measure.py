@@ -23,10 +23,7 @@ def differences(series, times, values, shift, start, end):
 
 front = tools.analyze("front", run)
 times, values = [2 ** 0.5 * RATE * row["t"] for row in front], [row["x_front"] / WIDTH for row in front]
-shifts = [k * 0.01 for k in range(-30, 31)]
-shift = min(shifts, key=lambda s: tools.root_mean_square(differences("front", times, values, s, 1.0, times[-1])))
-errors = differences("front", times, values, shift, 1.0, times[-1])
-value = tools.root_mean_square(errors)
+shift, value = tools.best_shift(lambda s: tools.root_mean_square(differences("front", times, values, s, 1.0, times[-1])), 0.3, 0.01)
 rows.add(f"front Z from T = 1 on, RMS of the relative error (best shift, within 0.3)", "1", value, 0.0, value, 0.05)
 rows.add("shift of T", "1", shift, 0.0, shift, 0.3)
 slope = (tools.at(3.0, times, values) - tools.at(1.5, times, values)) / 1.5

@@ -112,6 +112,14 @@ grep -q '"verdict":"usable"' out.txt || fail "--check: $(cat out.txt)"
 grep -q "fluid particles   2000" out.txt && grep -q "^expected  *[0-9].* steps, about" out.txt || fail "--explain: $(cat out.txt)"
 [ -e tank.case ] && fail "--explain made a case"
 
+# A slide that settles under gravity: the record says how far it fell; the next run finds it at rest.
+printf '%s\n' '[resolution]' 'dp = 0.02' '[[wall]]' 'tank = {lower = [0, 0, 0], upper = [0.2, 0.1, 0.2]}' 'open = ["top"]' '[[slide]]' \
+  'box = {lower = [0, 0, 0], upper = [0.1, 0.1, 0.1]}' 'diameter = 0.015' 'diameter_half_width = 0.003' 'relaxation = "gravity"' > bed.toml
+expect 0 "settled under gravity for" "$program" bed.toml
+grep -q '"bed_porosity":0\.[34]' out.txt || fail "no porosity of the bed: $(cat out.txt)"
+"$program" bed.toml --explain > out.txt 2> err.txt || fail "--explain of a slide that settles"
+grep -q "settles under gravity" out.txt || fail "--explain does not say that the slide settles: $(cat out.txt)"
+
 # Every case of the repository that is small builds at a coarse size.
 for name in hydrostatic dam-break two-phase-dam-break; do
   expect 0 "particles" "$program" "$cases/$name/$name.toml" -o $name.case --set resolution.dp=0.02 -v

@@ -26,7 +26,7 @@ TEST(Smoothing, WeightIntegratesToOne) {
       const double r = 2.0 * (k + 0.5) / n;
       sum += wendland_shape(r * r) * (d == 2 ? 2.0 * std::numbers::pi * r : 4.0 * std::numbers::pi * r * r) * 2.0 / n;
     }
-    EXPECT_NEAR(sum * wendland_factor(1.0, d), 1.0, 1e-5) << d;
+    EXPECT_NEAR(sum * wendland_normalisation(1.0, d), 1.0, 1e-5) << d;
   }
 }
 
@@ -175,7 +175,7 @@ TEST(FreeSurface, BruteForceAgreesWithTheGrid) {
   for (const Vec3d at : {Vec3d{0.5, 0.5, 0.5}, Vec3d{0.0, 0.99, 1.05}, Vec3d{-0.1, 0.3, 0.2}}) {
     double sum = 0.0;
     for (const Vec3d& p : water) sum += dp * dp * dp * wendland_shape(dot(at - p, at - p) / (h * h));
-    EXPECT_NEAR(sampler.fluid_fraction(at), sum * wendland_factor(h, 3), 1e-12);
+    EXPECT_NEAR(sampler.fluid_fraction(at), sum * wendland_normalisation(h, 3), 1e-12);
   }
 }
 

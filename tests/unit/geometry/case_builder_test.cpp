@@ -2,6 +2,7 @@
 #include "geometry/case_builder.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "support.hpp"
@@ -176,11 +177,83 @@ TEST(CaseBuilder, PorousBedHoldsItsShareOfTheWater) {
   bed.porosity = 0.5;
   s.slides = {bed};
   BuildReport report;
-  const Case c = build_case(s, report, {}, {}, BuildScope::counts_only);
+  const Case c = build_case(s, report, {.scope = BuildScope::counts_only});
   std::size_t in_bed = 0;
   for (const auto& p : c.fluid.position) in_bed += p.z < 0.1;
   EXPECT_NEAR(static_cast<double>(in_bed), 0.5 * 8000, 0.05 * 8000);
   EXPECT_EQ(c.fluid.position.size() - in_bed, 8000u);
+}
+
+/// Ground at 20 m with a bowl down to 10 m, at coordinates as large as UTM's.
+Scene bowl_far_out(const Folder& folder) {
+  write_esri_ascii(field(571000, 5126000, 10.0, 21, 21, [](double x, double y) { return 20.0 - 10.0 * std::exp(-(std::pow(x - 571100, 2) + std::pow(y - 5126100, 2)) / 2500.0); }),
+                   folder.file("t.asc"), 4);
+  Scene s;
+  s.dp = 4.0;
+  s.terrain.files = {folder.file("t.asc")};
+  FluidFill fill;
+  fill.kind = "level";
+  fill.level = 18.0;
+  fill.seed = Point2{571100, 5126100};
+  s.fluid.fill = {fill};
+  return s;
+}
+
+std::string warnings_of(const Scene& s) {
+  BuildReport report;
+  build_case(s, report, {.scope = BuildScope::counts_only});
+  std::string all;
+  for (const auto& w : report.notes.warnings) all += w + "\n";
+  return all;
+}
+
+TEST(CaseBuilder, WhatLiesElsewhereIsNamedWithItsPlace) {
+  const Folder folder;
+  Scene s = bowl_far_out(folder);
+  EXPECT_EQ(warnings_of(s), "");
+  s.gauges = {{"lost", {0, 0, 0}, false}, {"good", {571100, 5126100, 0}, false}};
+  const std::string text = warnings_of(s);
+  EXPECT_MENTIONS(text, "gauge \"lost\" (x 0 m, y 0 m) lies outside the domain (x 570");
+  EXPECT_EQ(text.find("good"), std::string::npos);
+  s.fluid.fill[0].level = 60.0;   // feet for metres
+  EXPECT_MENTIONS(warnings_of(s), "stands above 100 % of the ground, whose highest point is at 19.99");
+  s = bowl_far_out(folder);
+  Slide slide;
+  slide.name = "north";
+  slide.diameter = 5.0;
+  slide.shape.box = Box{{601000, 5126100, 20}, {601050, 5126150, 50}};
+  s.slides = {slide};
+  EXPECT_MENTIONS(input_error([&] { warnings_of(s); }), "slide \"north\" (x 601000 m to 601050 m");
+  s.slides[0].shape.box = Box{{571020, 5126020, 0}, {571060, 5126060, 10}};
+  EXPECT_MENTIONS(input_error([&] { warnings_of(s); }), "has no room");
+  s.slides[0].kind = "rigid";
+  EXPECT_MENTIONS(input_error([&] { warnings_of(s); }), "has no room");
+  s.slides[0].shape.box = Box{{571020, 5126020, 10}, {571060, 5126060, 30}};
+  EXPECT_MENTIONS(warnings_of(s), "% of its volume lies inside the terrain");
+}
+
+TEST(CaseBuilder, SlideThatSettlesIsGivenToTheSolverAndNotWithoutOne) {
+  Scene s = tank_scene(0.01);
+  Slide bed;
+  bed.shape.box = Box{{0, 0, 0}, {0.4, 0.2, 0.1}};
+  bed.diameter = 0.02;
+  bed.porosity = 0.5;
+  bed.velocity = {1, 0, 0};
+  bed.relaxation = "gravity";
+  s.slides = {bed};
+  BuildReport report;
+  EXPECT_THROW(build_case(s, report), Error);
+  EXPECT_NO_THROW(build_case(s, report, {.scope = BuildScope::counts_only}));
+  report = {};
+  const Case c = build_case(s, report, {.settler = [](GrainTable& grains, const TriangleTable&) {
+    for (Vec3d& p : grains.position) p.z -= 0.001;
+    return Settlement{.time = 2.0};
+  }});
+  ASSERT_TRUE(report.slides.at(0).settled.has_value());
+  EXPECT_NEAR(report.slides[0].settled->fall, 0.001, 1e-12);
+  EXPECT_EQ(c.grains.velocity.at(0).x, 1.0f);
+  ASSERT_FALSE(report.notes.warnings.empty());
+  EXPECT_NE(report.notes.warnings.back().find("not at rest after 2"), std::string::npos);
 }
 
 TEST(CaseBuilder, RigidSlideAndFloatingBox) {

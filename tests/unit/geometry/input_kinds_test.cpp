@@ -77,7 +77,7 @@ Scene lake(const std::vector<std::string>& files) {
 
 void expect_the_lake(const Scene& scene, double tolerance = 0.01) {
   BuildReport report;
-  const Case c = build_case(scene, report, {}, {}, BuildScope::counts_only);
+  const Case c = build_case(scene, report, {.scope = BuildScope::counts_only});
   EXPECT_NEAR(report.fills[0].exact_volume, expected_volume, tolerance * expected_volume);
   EXPECT_NEAR(report.fills[0].volume, expected_volume, 2.0 * tolerance * expected_volume);
   EXPECT_LT(std::abs(c.fluid.position[0].y), 1e4) << "re-centred";
@@ -165,7 +165,7 @@ TEST(InputKinds, SmallGapsInATerrainAreFilledAndTold) {
   }
   write_esri_ascii(f, folder.file("gap.asc"), 4);
   BuildReport report;
-  build_case(lake({folder.file("gap.asc")}), report, {}, {}, BuildScope::counts_only);
+  build_case(lake({folder.file("gap.asc")}), report, {.scope = BuildScope::counts_only});
   EXPECT_NEAR(report.fills[0].exact_volume, expected_volume, 0.01 * expected_volume);
   EXPECT_MENTIONS(report.notes.done.at(0), "9 nodes without data");
 }

@@ -53,9 +53,12 @@ TEST(RasterReader, TilesOfOneGridJoinWithoutASeam) {
   const auto z = [](double x, double y) { return x + 10 * y; };
   write_esri_ascii(field(0, 0, 1, 4, 3, z), folder.file("west.asc"), 2);
   write_esri_ascii(field(4, 0, 1, 4, 3, z), folder.file("east.asc"), 2);
-  const Heightfield f = read_tiles({folder.file("west.asc"), folder.file("east.asc")}, {}).field;
+  const Heightfield f = read_tiles({folder.file("west.asc"), folder.file("east.asc")}, {}).value().field;
   ASSERT_EQ(f.nx, 8);
   ASSERT_EQ(f.ny, 3);
+  const std::string points = folder.write("scattered.txt", "0.1 0 1\n7 3.3 2\n1.7 2 5\n");
+  EXPECT_FALSE(read_tiles({folder.file("west.asc"), points}, {}).has_value());
+  EXPECT_FALSE(read_if_raster(points, {}).has_value());
   for (int j = 0; j < 3; ++j) {
     for (int i = 0; i < 8; ++i) EXPECT_NEAR(f.at(i, j), z(i, j), 1e-9);
   }

@@ -37,7 +37,7 @@ void expect_basin(Scene s, std::initializer_list<double> spacings, double per_te
   for (const double dp : spacings) {
     s.dp = dp;
     BuildReport report;
-    build_case(s, report, {}, {}, BuildScope::counts_only);
+    build_case(s, report, {.scope = BuildScope::counts_only});
     EXPECT_NEAR(report.fills[0].exact_volume / basin.volume, 1.0, per_ten_metres * dp / 10.0) << dp;
     EXPECT_NEAR(report.fills[0].surface_area / basin.area, 1.0, 0.01) << dp;
   }
@@ -128,7 +128,7 @@ TEST(SharedTerrain, LandlabSlideVolume) {
   for (const double dp : {5.0, 2.5}) {
     s.dp = dp;
     BuildReport report;
-    build_case(s, report, {}, {}, BuildScope::counts_only);
+    build_case(s, report, {.scope = BuildScope::counts_only});
     EXPECT_NEAR(report.slides[0].volume, 22481.0, 0.01 * 22481.0) << dp;
   }
 }

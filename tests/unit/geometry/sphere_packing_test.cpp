@@ -4,8 +4,10 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <array>
 
 #include "geometry/packing_relaxation.hpp"
+#include "geometry/packing_settlement.hpp"
 #include "geometry/triangle_tree.hpp"
 #include "support.hpp"
 
@@ -102,6 +104,57 @@ TEST(SpherePacking, NormalDiametersHaveTheirSpread) {
   mean /= static_cast<double>(p.diameter.size());
   EXPECT_NEAR(mean, 0.08, 0.001);
   EXPECT_NEAR(std::sqrt(square / static_cast<double>(p.diameter.size()) - mean * mean), 0.008, 0.001);
+}
+
+TEST(SpherePacking, UniformDiametersFillTheirWidthEvenly) {
+  const Box box{{0, 0, 0}, {1, 1, 1}};
+  PackingRequest r = box_request(box, 0.08, 0.45);
+  r.half_width = 0.02;
+  const Packing p = pack_spheres(r);
+  EXPECT_NEAR(p.porosity, 0.45, 0.005);
+  EXPECT_LT(worst_overlap(p), bound);
+  std::array<double, 4> quarter{};
+  for (const float d : p.diameter) {
+    ASSERT_GE(d, 0.06f);
+    ASSERT_LE(d, 0.1f);
+    quarter[std::min<std::size_t>(3, static_cast<std::size_t>((d - 0.06f) / 0.01f))] += 1.0 / static_cast<double>(p.diameter.size());
+  }
+  for (const double share : quarter) EXPECT_NEAR(share, 0.25, 4.0 * std::sqrt(0.25 * 0.75 / static_cast<double>(p.diameter.size())));
+}
+
+/// Spheres of one diameter d that touch, layer on layer; `lift` above the floor of a box ten diameters high.
+Packing cubic_bed(double d, int across, int layers, double lift) {
+  Packing p;
+  p.volume = 10.0 * d * across * d * across * d;
+  for (int i = 0; i < across; ++i) {
+    for (int j = 0; j < across; ++j) {
+      for (int k = 0; k < layers; ++k) p.position.push_back({(i + 0.5) * d, (j + 0.5) * d, (k + 0.5) * d + lift});
+    }
+  }
+  p.diameter.assign(p.position.size(), static_cast<float>(d));
+  return p;
+}
+
+TEST(PackingSettlement, TellsFallAndPorosityOfTheBedAndLeavesOutWhatEscapes) {
+  const double d = 0.1;
+  const Box box{{0, 0, 0}, {6 * d, 6 * d, 10 * d}};
+  Packing p = cubic_bed(d, 6, 5, 2.0 * d);
+  const PackingRequest r = box_request(box, d, 0.5);
+  const SettledBed bed = settle_packing(r, 2650.0, [&](GrainTable& grains, const TriangleTable& walls) {
+    EXPECT_EQ(walls.triangle.size(), 12u);
+    for (const float density : grains.density) EXPECT_EQ(density, 2650.0f);
+    for (Vec3d& q : grains.position) q.z -= 2.0 * d;
+    grains.position.back().z = -3.0 * d;
+    return Settlement{.time = 1.0, .at_rest = true};
+  }, p);
+  EXPECT_EQ(p.left_out, 1u);
+  EXPECT_EQ(p.position.size(), 179u);
+  EXPECT_NEAR(bed.fall, 2.0 * d, 0.02 * d);
+  EXPECT_LT(p.largest_overlap, 1e-5);
+  // Above the tops of cubic layers, pi/4 of the plan carries half an ellipsoid's shape: the space below ends 1/2 - 1/3 of a radius lower there,
+  // a radius lower between them.
+  const double pi = 3.14159265358979, below = 5.0 - 0.5 * (pi / 4.0 / 3.0) - (1.0 - pi / 4.0);
+  EXPECT_NEAR(bed.porosity, 1.0 - 5.0 * pi / 6.0 / below, 0.05);
 }
 
 TEST(SpherePacking, DiscsInThePlane) {

@@ -43,7 +43,7 @@ Scene dam(const Folder& folder, double thickness, double turn = 0.0) {
 
 std::string warning_of(const Scene& s) {
   BuildReport report;
-  build_case(s, report, {}, {}, BuildScope::counts_only);
+  build_case(s, report, {.scope = BuildScope::counts_only});
   for (const auto& w : report.notes.warnings) {
     if (w.find("thick") != std::string::npos) return w;
   }

@@ -112,6 +112,9 @@ TEST_F(SceneMistakes, keys_that_do_not_go_together) {
   folder.write("m.csv", "x");
   EXPECT_TRUE(mentions(refusal(dp + "[[slide]]\n" + box), {"slide.0", "needs diameter"}));
   EXPECT_TRUE(mentions(refusal(dp + "[[slide]]\ndiameter = 1\ndiameter_deviation = 0.5\n" + box), {"a third"}));
+  EXPECT_TRUE(mentions(refusal(dp + "[[slide]]\ndiameter = 1\ndiameter_half_width = 1\n" + box), {"below diameter"}));
+  EXPECT_TRUE(mentions(refusal(dp + "[[slide]]\ndiameter = 1\ndiameter_deviation = 0.1\ndiameter_half_width = 0.2\n" + box), {"give one of them"}));
+  EXPECT_TRUE(mentions(refusal(dp + "[[slide]]\ndiameter = 1\nrelaxation = \"gravty\"\n" + box), {"in-place, gravity"}));
   EXPECT_TRUE(mentions(refusal(dp + "[[slide]]\ndiameter = 1\nporosity = 0.05\n" + box), {"0.2 to 0.95"}));
   EXPECT_TRUE(mentions(refusal(dp + "[[slide]]\nkind = \"prescribed\"\n" + box), {"needs motion_csv"}));
   EXPECT_TRUE(mentions(refusal(dp + "[[slide]]\nkind = \"rigid\"\nmotion_csv = \"m.csv\"\n" + box), {"only with kind"}));

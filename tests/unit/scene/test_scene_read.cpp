@@ -73,6 +73,7 @@ diameter_deviation = 0.001
 real_diameter = 0.005
 porosity = 0.4
 seed = 7
+relaxation = "gravity"
 release_at = 1.5
 velocity = [1, 0, -1]
 [[slide.sieve]]

@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "exec/lanes.hpp"
 #include "sph/particle_shifting.hpp"
@@ -27,6 +28,8 @@
 
 namespace gdesp::sph {
 namespace {
+
+constexpr double pi = std::numbers::pi;
 
 double W(double r, double h, int dimensions) {
   const auto t = static_cast<float>(std::max(0.0, 1.0 - r / (2.0 * h)));

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What lies where it cannot be meant: another coordinate system, another unit, a slip of the pen. Messages in the scene's own coordinates.
+#pragma once
+
+#include "geometry/case_builder.hpp"
+
+namespace gdesp::geometry {
+
+/// "x 1911388 m to 1918588 m, y ..." of a box in case coordinates; `heights`: z too.
+std::string span_text(const Box& box, const Vec3d& offset, bool heights = false);
+
+/// Warns of gauges, sections and regions that lie outside the domain.
+void warn_of_measures_outside(const Layout& layout, Notes& notes);
+
+/// A slide has `free` of its volume `whole` (m3, m2 in the plane) outside terrain, walls and bodies. Throws Error(input) when that
+/// is nothing, saying where slide and terrain lie; warns when a fiftieth or more is missing.
+void check_room(const Layout& layout, std::size_t slide, double free, double whole, Notes& notes);
+
+/// ", ..." to be added to what is said of water that nothing holds: that the level stands above nearly all of the ground; empty otherwise.
+std::string level_hint(const FillSpace& space, double level);
+
+}  // namespace gdesp::geometry
