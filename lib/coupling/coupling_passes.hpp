@@ -1,42 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The loops of the coupling: what each cluster of grains or of water adds up, and what each slot makes of it.
+// The loops over pairs of the coupling: nodes add up what grains, water and walls bring; grains and water read what nodes
+// hold. Each pass is one half of a sum sum_n S_n(r_i) sum_a S_n(r_a) q_a/V_n (coupling.averaging), r: from the j of the
+// list to its i, so from a particle to the node where nodes add up.
 #pragma once
 
-#include "coupling/buoyancy.hpp"
-#include "coupling/drag.hpp"
-#include "coupling/grain_fluid_coupling.hpp"
-#include "sph/cavitation.hpp"
-#include "sph/tait.hpp"
-#include "sph/wendland_c2.hpp"
+#include "coupling/averaging_spline.hpp"
+#include "coupling/coupling_slots.hpp"
 
 namespace gdesp::coupling {
 
-// Rows of a record of grains (four floats each), as the passes leave them.
-enum GrainRow { row_x = 0, row_y = 4, row_z = 8, row_volume = 12, row_force = 16, row_offset = 28 };
-// Rows of the water's own: u = volume over the room that walls leave (m3), pressure (Pa), 1/that room.
-constexpr Index water_rows = 12;
-// Rows of the sums at grains.
-constexpr Index sum_rows = 48;
-enum SumRow { sum_water = 0, sum_porosity = 4, sum_velocity = 8, sum_pressure = 20, sum_water_gradient = 24,
-              sum_pressure_gradient = 36 };
-
-struct CouplingKernel {
-  float inverse_support;  // 1/(2 h_c)
-  float alpha;            // of W(h_c)
-  float slope;            // 5 alpha/h_c^2
-  template <class Real>
-  GDESP_HD Real t(const Real& rx, const Real& ry, const Real& rz) const {
-    using real::max;
-    using real::sqrt;
-    return max(Real(0.0f), Real(1.0f) - sqrt(rx * rx + ry * ry + rz * rz) * Real(inverse_support));
-  }
-  template <class Real>
-  GDESP_HD Real W(const Real& rx, const Real& ry, const Real& rz) const {
-    return Real(alpha) * sph::wendland_shape(t(rx, ry, rz));
-  }
+// Rows of the nodes' sums (four floats each).
+constexpr Index node_rows = 64;
+enum NodeRow {
+  node_water = 0,         // sum_a u_a S/V
+  node_porosity = 4,      // sum_a u_a eps_a S/V
+  node_pressure = 8,      // sum_a u_a (P_a - rho g.(r_a - r_n)) S/V
+  node_velocity = 12,     // sum_a u_a v_a S/V
+  node_wall = 24,         // sum_w V_w S/V
+  node_solid = 28,        // sum_i V_i (w/N) S/V
+  node_slope = 32,        // sum_i slope_i S/V
+  node_offset = 36,       // sum_i (slope_i rho g.(r_n - r_i) - offset_i) S/V
+  node_pull = 40,         // sum_i (offset_i + slope_i rho g.(r_i - r_n)) grad S/V + (slope_i rho g - force_i) S/V
+  node_slope_gradient = 52
 };
 
-// The four grains or water particles of a cluster, and one of the other kind against them.
+// Four places of a cluster, and those of one of the other kind against them.
 template <class Real>
 struct Place { Real x, y, z; };
 template <class Lanes>
@@ -50,192 +38,127 @@ GDESP_HD inline Place<typename Lanes::Real> separation(const Lanes& lanes, const
   return {i.x + Real(shift.x) - lanes.load_j(rj + row_x), i.y + Real(shift.y) - lanes.load_j(rj + row_y),
           i.z + Real(shift.z) - lanes.load_j(rj + row_z)};
 }
-
-GDESP_HD inline float grain_volume(float R, bool discs) {
-  return discs ? 3.14159265f * R * R : 4.18879020f * R * R * R;
+template <class Real>
+GDESP_HD inline Real dot(const Vec3f& a, const Place<Real>& r) {
+  return Real(a.x) * r.x + Real(a.y) * r.y + Real(a.z) * r.z;
 }
 
-struct PackGrains {
-  Domain domain;
-  const Vec3<std::int32_t>* cluster_tile;
-  const FixedPosition* position;
-  const dem::GrainRecord* grain;
-  const std::uint32_t* id;
-  bool discs;
-  float* record;
-  Vec3f* velocity_before;
-  const Vec3f* velocity;
-  float ahead;  // s
-  GDESP_HD void operator()(Index s) const {
-    const Index c = s / exec::cluster_size;
-    float* r = record + record_offset(c) + s % exec::cluster_size;
-    const bool real_grain = id[s] != no_particle;
-    const Vec3f x = real_grain ? domain.relative_to_tile(position[s], cluster_tile[c])
-                               : Vec3f{padding_coordinate, padding_coordinate, padding_coordinate};
-    const float R = real_grain ? grain[s].radius : 0.0f;
-    const bool moves = real_grain && grain[s].mobility > 0.0f;
-    const float dt = moves ? ahead : 0.0f;
-    r[0] = x.x + grain[s].vx * dt;
-    r[4] = x.y + grain[s].vy * dt;
-    r[8] = x.z + grain[s].vz * dt;
-    r[row_volume] = grain_volume(R, discs);
-    r[16] = r[20] = r[24] = r[row_offset] = 0.0f;
-    velocity_before[s] = velocity[s];
+// Pairs of a pass: the records of i and of j, and who is near whom.
+struct NodePairs {
+  AveragingSpline spline;
+  ClusterListView list;
+  const float* of_i;
+  const float* of_j;
+
+  // visit(j, r): for each cluster in reach.
+  template <class Lanes, class Visit>
+  GDESP_HD void for_each(Index c, const Lanes& lanes, const Visit& visit) const {
+    const auto i = place_i(lanes, of_i + record_offset(c));
+    for_each_cluster(list, c, [&](Index j, const Vec3f& shift) {
+      visit(j, separation(lanes, i, of_j + record_offset(j), shift));
+    });
   }
 };
 
-// The water's own rows, whatever form its records have.
-struct PackWater {
-  const std::uint32_t* id;
-  const float* density;
+// Where the four of something stand in rows by cluster.
+template <class Float>
+GDESP_HD inline Float* rows_of(Float* first, Index rows, Index c) { return first + static_cast<std::int64_t>(rows) * c; }
+
+// One quantity of j, a row of `source`, into a row of the nodes; `factor` comes to 1/V.
+struct AddAtNodes {
+  NodePairs pairs;
+  const float* source;   // null: 1
+  Index source_rows;
+  float factor;
+  float* row;            // of node_rows
+  template <class Lanes>
+  GDESP_HD void operator()(Index c, const Lanes& lanes) const {
+    using Real = typename Lanes::Real;
+    Real sum(0.0f);
+    pairs.for_each(c, lanes, [&](Index j, const Place<Real>& r) {
+      const Real S = pairs.spline.weight(r.x, r.y, r.z);
+      sum += source ? S * lanes.load_j(rows_of(source, source_rows, j)) : S;
+    });
+    lanes.store_sum_i(rows_of(row, node_rows, c), sum * Real(factor * pairs.spline.inverse_volume));
+  }
+};
+
+// One row of the nodes at i, over `factor` (a row of i, or null).
+struct ReadAtPlaces {
+  NodePairs pairs;
+  const float* row;
+  const float* factor;
+  Index factor_rows;
+  float* result;
+  Index result_rows;
+  template <class Lanes>
+  GDESP_HD void operator()(Index c, const Lanes& lanes) const {
+    using Real = typename Lanes::Real;
+    Real sum(0.0f);
+    pairs.for_each(c, lanes, [&](Index j, const Place<Real>& r) {
+      sum += pairs.spline.weight(r.x, r.y, r.z) * lanes.load_j(rows_of(row, node_rows, j));
+    });
+    lanes.store_sum_i(rows_of(result, result_rows, c), factor ? sum * lanes.load_i(rows_of(factor, factor_rows, c)) : sum);
+  }
+};
+
+// All that grains ask of the water, at the nodes.
+struct WaterAtNodes {
+  NodePairs pairs;
+  Vec3f rho_g;
+  const float* water;
   const float* porosity;
-  const float* mass_share;
-  bool cavitates;
-  float V0, stiffness;
-  float* water;
-  GDESP_HD void operator()(Index s) const {
-    float* r = water + water_rows * static_cast<std::int64_t>(s / exec::cluster_size) + s % exec::cluster_size;
-    const bool real_particle = id[s] != no_particle;
-    const float ratio = 1.0f + density[s], eps = porosity[s];
-    r[0] = real_particle ? V0 * mass_share[s] / sph::cavitated_density(ratio, eps, cavitates) * r[8] : 0.0f;
-    r[4] = real_particle ? stiffness * sph::cavitated_pressure(sph::tait_pressure(ratio / eps - 1.0f), cavitates) : 0.0f;
-  }
-};
-
-// Room that walls leave around the water.
-struct RoomOfWater {
-  CouplingKernel kernel;
-  float V0;
-  ClusterListView wall_list;
-  const float* fluid;
-  const float* walls;
-  float* water;
+  float* nodes;
   template <class Lanes>
   GDESP_HD void operator()(Index c, const Lanes& lanes) const {
     using Real = typename Lanes::Real;
-    const Place<Real> i = place_i(lanes, fluid + record_offset(c));
-    Real wall(0.0f);
-    for_each_cluster(wall_list, c, [&](Index j, const Vec3f& shift) {
-      const Place<Real> r = separation(lanes, i, walls + record_offset(j), shift);
-      wall += kernel.W(r.x, r.y, r.z);
+    const Real zero(0.0f), inverse_volume(pairs.spline.inverse_volume);
+    Real N = zero, eps = zero, pressure = zero, velocity[3] = {zero, zero, zero};
+    pairs.for_each(c, lanes, [&](Index j, const Place<Real>& r) {
+      const float* rj = pairs.of_j + record_offset(j);
+      const float* wj = rows_of(water, water_rows, j);
+      const Real uS = lanes.load_j(wj) * pairs.spline.weight(r.x, r.y, r.z);
+      N += uS;
+      eps += uS * lanes.load_j(porosity + 4 * static_cast<std::int64_t>(j));
+      pressure += uS * (lanes.load_j(wj + 4) + dot(rho_g, r));   // r: from the water to the node
+      for (int k = 0; k < 3; ++k) velocity[k] += uS * lanes.load_j(rj + 16 + 4 * k);
     });
-    lanes.store_sum_i(water + water_rows * static_cast<std::int64_t>(c) + 8, wall * Real(V0));
-  }
-};
-struct RoomToBoost {
-  float* water;
-  GDESP_HD void operator()(Index s) const {
-    float* r = water + water_rows * static_cast<std::int64_t>(s / exec::cluster_size) + s % exec::cluster_size;
-    r[8] = 1.0f / open_share(r[8]);
-  }
-};
-
-// N at grains.
-struct WaterAtGrains {
-  CouplingKernel kernel;
-  ClusterListView list;
-  const float* grains;
-  const float* fluid;
-  const float* water;
-  float* sums;
-  template <class Lanes>
-  GDESP_HD void operator()(Index c, const Lanes& lanes) const {
-    using Real = typename Lanes::Real;
-    const Place<Real> i = place_i(lanes, grains + record_offset(c));
-    Real N(0.0f);
-    for_each_cluster(list, c, [&](Index j, const Vec3f& shift) {
-      const Place<Real> r = separation(lanes, i, fluid + record_offset(j), shift);
-      N += lanes.load_j(water + water_rows * static_cast<std::int64_t>(j)) * kernel.W(r.x, r.y, r.z);
-    });
-    lanes.store_sum_i(sums + sum_rows * static_cast<std::int64_t>(c) + sum_water, N);
-  }
-};
-
-// V to V w/N.
-struct Deposit {
-  const float* sums;
-  float* record;
-  bool all;  // whatever touches water, before it is known how much room the water takes
-  GDESP_HD void operator()(Index s) const {
-    const std::int64_t c = s / exec::cluster_size, lane = s % exec::cluster_size;
-    float* r = record + record_offset(static_cast<Index>(c)) + lane;
-    const float N = sums[sum_rows * c + lane + sum_water];
-    r[row_volume] = all ? (N > 0.02f ? r[row_volume] : 0.0f) : deposited_volume(r[row_volume], N);
-  }
-};
-
-// Solid share at the water.
-struct FluidPorosity {
-  CouplingKernel kernel;
-  ClusterListView list;
-  const float* fluid;
-  const float* grains;
-  const float* water;
-  float* solid;  // first of 12 rows of 4 a cluster
-  template <class Lanes>
-  GDESP_HD void operator()(Index c, const Lanes& lanes) const {
-    using Real = typename Lanes::Real;
-    const Place<Real> i = place_i(lanes, fluid + record_offset(c));
-    Real share(0.0f);
-    for_each_cluster(list, c, [&](Index j, const Vec3f& shift) {
-      const float* rj = grains + record_offset(j);
-      const Place<Real> r = separation(lanes, i, rj, shift);
-      share += lanes.load_j(rj + row_volume) * kernel.W(r.x, r.y, r.z);
-    });
-    lanes.store_sum_i(solid + 12 * static_cast<std::int64_t>(c),
-                      share * lanes.load_i(water + water_rows * static_cast<std::int64_t>(c) + 8));
-  }
-};
-struct SolidToPorosity {
-  const float* solid;
-  const float* density;
-  float* porosity;
-  bool starting;
-  GDESP_HD void operator()(Index s) const {
-    const float found = real::max(1.0f - solid[12 * static_cast<std::int64_t>(s / exec::cluster_size) + s % exec::cluster_size],
-                                  least_porosity);
-    // Opened water takes its room from the porosity before: half of the way, so that the two settle.
-    const bool opened = starting || 1.0f + density[s] < 0.98f * porosity[s];
-    porosity[s] = opened ? 0.5f * (found + porosity[s]) : found;
+    float* out = rows_of(nodes, node_rows, c);
+    lanes.store_sum_i(out + node_water, N * inverse_volume);
+    lanes.store_sum_i(out + node_porosity, eps * inverse_volume);
+    lanes.store_sum_i(out + node_pressure, pressure * inverse_volume);
+    for (int k = 0; k < 3; ++k) lanes.store_sum_i(out + node_velocity + 4 * k, velocity[k] * inverse_volume);
   }
 };
 
 // Sums over the water at a grain.
 struct GatherAtGrains {
-  CouplingKernel kernel;
+  NodePairs pairs;
   Vec3f rho_g;
-  ClusterListView list;
-  const float* grains;
-  const float* fluid;
-  const float* water;
-  const float* porosity;
+  const float* nodes;
   float* sums;
   template <class Lanes>
   GDESP_HD void operator()(Index c, const Lanes& lanes) const {
     using Real = typename Lanes::Real;
     const Real zero(0.0f);
-    const Place<Real> i = place_i(lanes, grains + record_offset(c));
     Real N = zero, eps = zero, pressure = zero, velocity[3] = {zero, zero, zero};
     Real water_gradient[3] = {zero, zero, zero}, pressure_gradient[3] = {zero, zero, zero};
-    for_each_cluster(list, c, [&](Index j, const Vec3f& shift) {
-      const float* rj = fluid + record_offset(j);
-      const float* wj = water + water_rows * static_cast<std::int64_t>(j);
-      const Place<Real> r = separation(lanes, i, rj, shift);
-      const Real t = kernel.t(r.x, r.y, r.z), u = lanes.load_j(wj);
-      const Real p = lanes.load_j(wj + 4) + Real(rho_g.x) * r.x + Real(rho_g.y) * r.y + Real(rho_g.z) * r.z;
-      const Real W = u * Real(kernel.alpha) * sph::wendland_shape(t);
-      const Real G = u * Real(kernel.slope) * sph::wendland_slope_shape(t);
-      N += W;
-      eps += W * lanes.load_j(porosity + 4 * static_cast<std::int64_t>(j));
-      pressure += W * p;
-      const Real d[3] = {G * r.x, G * r.y, G * r.z};
+    pairs.for_each(c, lanes, [&](Index j, const Place<Real>& r) {
+      AveragingSpline::Gradient<Real> gradient;
+      const Real S = pairs.spline.weight(r.x, r.y, r.z, gradient);
+      const float* n = rows_of(nodes, node_rows, j);
+      const Real U = lanes.load_j(n + node_water), P = lanes.load_j(n + node_pressure) + U * dot(rho_g, r);
+      N += S * U;
+      eps += S * lanes.load_j(n + node_porosity);
+      pressure += S * P;
+      const Real d[3] = {gradient.x, gradient.y, gradient.z};
       for (int k = 0; k < 3; ++k) {
-        velocity[k] += W * lanes.load_j(rj + 16 + 4 * k);
-        water_gradient[k] -= d[k];
-        pressure_gradient[k] -= d[k] * p;
+        velocity[k] += S * lanes.load_j(n + node_velocity + 4 * k);
+        water_gradient[k] += d[k] * U;
+        pressure_gradient[k] += d[k] * P;
       }
     });
-    float* out = sums + sum_rows * static_cast<std::int64_t>(c);
+    float* out = rows_of(sums, sum_rows, c);
     lanes.store_sum_i(out + sum_water, N);
     lanes.store_sum_i(out + sum_porosity, eps);
     lanes.store_sum_i(out + sum_pressure, pressure);
@@ -247,71 +170,34 @@ struct GatherAtGrains {
   }
 };
 
-GDESP_HD inline Vec3f vector_at(const float* q) { return {q[0], q[4], q[8]}; }
-
-struct ForcesOnGrains {
-  const dem::GrainRecord* grain;
-  const std::uint32_t* id;
-  const std::int32_t* group;
-  float* record;
-  const float* sums;
-  const float* real_diameter;  // per group; null: their own
-  Drag law;
-  bool discs;
-  float density, viscosity, added_mass_factor;
-  Vec3f gravity;
-  float* porosity;
-  float* drag_coefficient;
-  float* fluid_mass;
-  float* added_mass;
-  Vec3f* fluid_velocity;
-  Vec3f* fluid_acceleration;
-  Vec3f* other_force;
-
-  GDESP_HD void operator()(Index s) const {
-    const std::int64_t c = s / exec::cluster_size, lane = s % exec::cluster_size;
-    const float* q = sums + sum_rows * c + lane;
-    float* r = record + record_offset(static_cast<Index>(c)) + lane;
-    r[row_volume] = r[row_offset] = 0.0f;
-    drag_coefficient[s] = fluid_mass[s] = added_mass[s] = 0.0f;
-    porosity[s] = 1.0f;
-    fluid_velocity[s] = fluid_acceleration[s] = other_force[s] = {};
-    const float N = q[sum_water], wet = immersion(N);
-    if (id[s] == no_particle || wet <= 0.0f) return;
-    const float inverse = 1.0f / N;
-    const float eps = real::min(real::max(q[sum_porosity] * inverse, porosity_floor), 1.0f);
-    const Vec3f u = vector_at(q + sum_velocity) * inverse;
-    const float R = grain[s].radius, V = grain_volume(R, discs);
-    const Buoyancy push = buoyancy(V, {N, q[sum_pressure], vector_at(q + sum_water_gradient),
-                                       vector_at(q + sum_pressure_gradient)}, gravity * density);
-    const float given = real_diameter ? real_diameter[group[s]] : 0.0f;
-    const Vec3f v{grain[s].vx, grain[s].vy, grain[s].vz};
-    const DragState state{eps, norm(u - v), given > 0.0f ? given : 2.0f * R, density, viscosity};
-    const float K = law == Drag::ergun_wen_yu ? ergun_wen_yu_drag(state) : di_felice_drag(state);
-    // Fluid that belongs to the grain: less of it where the room around is only partly wet.
-    fluid_mass[s] = density * V * eps * real::min(N, 1.0f) / real::max(1.0f - eps, 1.0e-3f);
-    // Faded out towards a packed bed: buoyancy and added mass together react with (1 - eps)(1 + C_m) of the water's own
-    // pressure acceleration, which explicit coupling bears only below one.
-    const float dilute = real::min(real::max((eps - 0.6f) / 0.3f, 0.0f), 1.0f);
-    const float m_added = wet * dilute * added_mass_factor * density * V;
-    r[row_volume] = push.slope;
-    r[row_offset] = push.offset;
-    porosity[s] = eps;
-    fluid_velocity[s] = u;
-    drag_coefficient[s] = wet * K * V;
-    added_mass[s] = m_added;
-    fluid_acceleration[s] = push.gradient * (-1.0f / density) + gravity;
-    other_force[s] = push.force + m_added * fluid_acceleration[s];
+// What the grains add to the mixture pressure, at the nodes.
+struct MixtureAtNodes {
+  NodePairs pairs;
+  Vec3f rho_g;
+  float* nodes;
+  template <class Lanes>
+  GDESP_HD void operator()(Index c, const Lanes& lanes) const {
+    using Real = typename Lanes::Real;
+    const Real inverse_volume(pairs.spline.inverse_volume);
+    Real slope(0.0f), offset(0.0f);
+    pairs.for_each(c, lanes, [&](Index j, const Place<Real>& r) {
+      const float* rj = pairs.of_j + record_offset(j);
+      const Real S = pairs.spline.weight(r.x, r.y, r.z), of_grain = lanes.load_j(rj + row_volume);
+      slope += S * of_grain;
+      offset += S * (of_grain * dot(rho_g, r) - lanes.load_j(rj + row_offset));   // r: from the grain to the node
+    });
+    float* out = rows_of(nodes, node_rows, c);
+    lanes.store_sum_i(out + node_slope, slope * inverse_volume);
+    lanes.store_sum_i(out + node_offset, offset * inverse_volume);
   }
 };
 
 // The mixture pressure, in the place of the pressure, for the water's own momentum.
 struct MixturePressure {
-  CouplingKernel kernel;
+  NodePairs pairs;
   Vec3f rho_g;
   float inverse_stiffness;
-  ClusterListView list;
-  const float* grains;
+  const float* nodes;
   const float* water;
   const float* porosity;
   const float* density;  // of the form of the paper: the row is over its ratio squared; null else
@@ -319,16 +205,12 @@ struct MixturePressure {
   template <class Lanes>
   GDESP_HD void operator()(Index c, const Lanes& lanes) const {
     using Real = typename Lanes::Real;
-    float* ri = fluid + record_offset(c);
-    const float* w = water + water_rows * static_cast<std::int64_t>(c);
-    const Place<Real> i = place_i(lanes, ri);
+    const float* w = rows_of(water, water_rows, c);
     Real of_grains(0.0f);
     bool any = false;
-    for_each_cluster(list, c, [&](Index j, const Vec3f& shift) {
-      const float* rj = grains + record_offset(j);
-      const Place<Real> r = separation(lanes, i, rj, shift);
-      const Real head = Real(rho_g.x) * r.x + Real(rho_g.y) * r.y + Real(rho_g.z) * r.z;
-      of_grains += (lanes.load_j(rj + row_volume) * head - lanes.load_j(rj + row_offset)) * kernel.W(r.x, r.y, r.z);
+    pairs.for_each(c, lanes, [&](Index j, const Place<Real>& r) {
+      const float* n = rows_of(nodes, node_rows, j);
+      of_grains += pairs.spline.weight(r.x, r.y, r.z) * (lanes.load_j(n + node_offset) + lanes.load_j(n + node_slope) * dot(rho_g, r));
       any = true;
     });
     if (!any) return;
@@ -339,78 +221,64 @@ struct MixturePressure {
       const Real ratio = Real(1.0f) + lanes.load_i(density + 4 * static_cast<std::int64_t>(c));
       scale = scale / (ratio * ratio);
     }
-    lanes.store_sum_i(ri + 28, (own + lanes.load_i(w + 8) * of_grains) * scale);
+    lanes.store_sum_i(fluid + record_offset(c) + 28, (own + lanes.load_i(w + 8) * of_grains) * scale);
   }
 };
-// What each grain took besides pressure, over N, into its record.
-struct PackReaction {
-  const std::uint32_t* id;
-  const Vec3f* velocity;
-  const Vec3f* velocity_before;
-  const Vec3f* fluid_acceleration;
-  const float* added_mass;
-  const Vec3d* drag_impulse;
-  const float* sums;
-  float inverse_dt, kick_share;  // 1/s; time of constant forces over dt
-  float* record;
-  GDESP_HD void operator()(Index s) const {
-    const std::int64_t c = s / exec::cluster_size, lane = s % exec::cluster_size;
-    float* r = record + record_offset(static_cast<Index>(c)) + lane;
-    if (id[s] == no_particle || r[row_volume] <= 0.0f) return;   // dry
-    const float N = sums[sum_rows * c + lane + sum_water];
-    const Vec3f change = velocity[s] - velocity_before[s];
-    const Vec3f F = fluid_acceleration[s] * (added_mass[s] * kick_share) +
-                    static_cast<Vec3f>(drag_impulse[s] * static_cast<double>(inverse_dt)) - change * (added_mass[s] * inverse_dt);
-    r[row_force] = F.x / N;
-    r[row_force + 4] = F.y / N;
-    r[row_force + 8] = F.z / N;
-    r[row_volume] *= kick_share;
-    r[row_offset] *= kick_share;
+
+// What the grains took, at the nodes.
+struct ReactionAtNodes {
+  NodePairs pairs;
+  Vec3f rho_g;
+  float* nodes;
+  template <class Lanes>
+  GDESP_HD void operator()(Index c, const Lanes& lanes) const {
+    using Real = typename Lanes::Real;
+    const Real zero(0.0f), inverse_volume(pairs.spline.inverse_volume);
+    const float g[3] = {rho_g.x, rho_g.y, rho_g.z};
+    Real pull[3] = {zero, zero, zero}, slope_gradient[3] = {zero, zero, zero};
+    pairs.for_each(c, lanes, [&](Index j, const Place<Real>& r) {
+      const float* rj = pairs.of_j + record_offset(j);
+      // At the grain, which is at -r from the node.
+      AveragingSpline::Gradient<Real> gradient;
+      const Real S = pairs.spline.weight(-r.x, -r.y, -r.z, gradient);
+      const Real slope = lanes.load_j(rj + row_volume), push = lanes.load_j(rj + row_offset) - slope * dot(rho_g, r);
+      const Real d[3] = {gradient.x, gradient.y, gradient.z};
+      for (int k = 0; k < 3; ++k) {
+        pull[k] += push * d[k] + S * (slope * Real(g[k]) - lanes.load_j(rj + row_force + 4 * k));
+        slope_gradient[k] += slope * d[k];
+      }
+    });
+    float* out = rows_of(nodes, node_rows, c);
+    for (int k = 0; k < 3; ++k) {
+      lanes.store_sum_i(out + node_pull + 4 * k, pull[k] * inverse_volume);
+      lanes.store_sum_i(out + node_slope_gradient + 4 * k, slope_gradient[k] * inverse_volume);
+    }
   }
 };
 
 struct ReactionOnFluid {
-  CouplingKernel kernel;
+  NodePairs pairs;
   Vec3f rho_g;
   float inverse_mass;  // 1 / (rho0 V0)
-  ClusterListView list;
-  const float* fluid;
-  const float* grains;
+  const float* nodes;
   const float* water;
   const float* mass_share;
   float* reaction;
   template <class Lanes>
   GDESP_HD void operator()(Index c, const Lanes& lanes) const {
     using Real = typename Lanes::Real;
-    const Place<Real> i = place_i(lanes, fluid + record_offset(c));
-    const float* w = water + water_rows * static_cast<std::int64_t>(c);
+    const float* w = rows_of(water, water_rows, c);
     const Real P = lanes.load_i(w + 4);
-    Real fx(0.0f), fy(0.0f), fz(0.0f);
-    for_each_cluster(list, c, [&](Index j, const Vec3f& shift) {
-      const float* rj = grains + record_offset(j);
-      const Place<Real> r = separation(lanes, i, rj, shift);   // from the grain to the water
-      const Real t = kernel.t(r.x, r.y, r.z), W = Real(kernel.alpha) * sph::wendland_shape(t);
-      const Real slope = lanes.load_j(rj + row_volume);
-      const Real p = P - (Real(rho_g.x) * r.x + Real(rho_g.y) * r.y + Real(rho_g.z) * r.z);
-      const Real push = (slope * p + lanes.load_j(rj + row_offset)) * Real(kernel.slope) * sph::wendland_slope_shape(t);
-      fx += push * r.x + W * (slope * Real(rho_g.x) - lanes.load_j(rj + row_force));
-      fy += push * r.y + W * (slope * Real(rho_g.y) - lanes.load_j(rj + row_force + 4));
-      fz += push * r.z + W * (slope * Real(rho_g.z) - lanes.load_j(rj + row_force + 8));
+    Real f[3] = {Real(0.0f), Real(0.0f), Real(0.0f)};
+    pairs.for_each(c, lanes, [&](Index j, const Place<Real>& r) {   // r: from the node to the water
+      const float* n = rows_of(nodes, node_rows, j);
+      const Real S = pairs.spline.weight(r.x, r.y, r.z), p = P - dot(rho_g, r);
+      for (int k = 0; k < 3; ++k) {
+        f[k] += S * (lanes.load_j(n + node_pull + 4 * k) + p * lanes.load_j(n + node_slope_gradient + 4 * k));
+      }
     });
-    const Real scale = Real(inverse_mass) * lanes.load_i(w) /
-                       lanes.load_i(mass_share + 4 * static_cast<std::int64_t>(c));
-    float* out = reaction + 12 * static_cast<std::int64_t>(c);
-    lanes.store_sum_i(out, fx * scale);
-    lanes.store_sum_i(out + 4, fy * scale);
-    lanes.store_sum_i(out + 8, fz * scale);
-  }
-};
-struct UnpackReaction {
-  const float* reaction;
-  Vec3f* external;
-  GDESP_HD void operator()(Index s) const {
-    const float* r = reaction + 12 * static_cast<std::int64_t>(s / exec::cluster_size) + s % exec::cluster_size;
-    external[s] = {r[0], r[4], r[8]};
+    const Real scale = Real(inverse_mass) * lanes.load_i(w) / lanes.load_i(mass_share + 4 * static_cast<std::int64_t>(c));
+    for (int k = 0; k < 3; ++k) lanes.store_sum_i(rows_of(reaction, 12, c) + 4 * k, f[k] * scale);
   }
 };
 

@@ -4,19 +4,11 @@
 #include "coupling/coupling_passes.hpp"
 
 namespace gdesp::coupling {
-namespace {
-
-CouplingKernel kernel_of(const CouplingLaw& law) {
-  const double h = law.smoothing_length, alpha = sph::wendland_normalisation(h, law.dimensions);
-  return {static_cast<float>(1.0 / (2.0 * h)), static_cast<float>(alpha), static_cast<float>(5.0 * alpha / (h * h))};
-}
-
-}  // namespace
-
 template <class Exec>
 GrainFluidCoupling<Exec>::GrainFluidCoupling(const Exec& exec, const Domain& domain, const CouplingLaw& law)
-    : exec_(exec), domain_(domain), law_(law), grain_fluid_(exec), fluid_grain_(exec), fluid_wall_(exec),
-      real_diameter_(exec), record_(exec), sums_(exec), water_(exec), 
+    : exec_(exec), domain_(domain), law_(law),
+      lattice_(domain, node_spacing(law.smoothing_length, law.dimensions)), nodes_(exec, lattice_), node_grain_(exec),
+      node_fluid_(exec), node_wall_(exec), grain_node_(exec), fluid_node_(exec), node_sums_(exec), real_diameter_(exec), record_(exec), sums_(exec), water_(exec), 
       velocity_before_(exec), porosity_(exec), drag_coefficient_(exec), fluid_mass_(exec), added_mass_(exec),
       fluid_velocity_(exec), fluid_acceleration_(exec), other_force_(exec), reaction_(exec) {
   real_diameter_.assign(law.real_diameter);
@@ -41,11 +33,17 @@ void GrainFluidCoupling<Exec>::rebuild(const dem::GrainSystem<Exec>& grains, con
   reaction_.resize_discard(water_clusters * 12);
   water_.resize_discard(water_clusters * water_rows);
   place(grains, 0.0);
-  const auto cutoff = static_cast<float>(2.0 * law_.smoothing_length + skin);
-  const CellGridView fluid_grid = fluid.set().view(), grain_grid = grains.set().view(), wall_grid = fluid.wall_set().view();
-  grain_fluid_.build(grain_grid, record_.data(), fluid_grid, fluid.records(), cutoff);
-  fluid_grain_.build(fluid_grid, fluid.records(), grain_grid, record_.data(), cutoff);
-  fluid_wall_.build(fluid_grid, fluid.records(), wall_grid, fluid.wall_records(), cutoff);
+  const CellGridView fluid_grid = fluid.set().view(), grain_grid = grains.set().view();
+  nodes_.build({grain_grid, grains.positions(), grains.ids(), grains.slots()},
+               {fluid_grid, fluid.positions(), fluid.ids(), fluid.slots()}, skin);
+  node_sums_.resize_discard(static_cast<std::size_t>(nodes_.clusters()) * node_rows);
+  const auto cutoff = static_cast<float>(lattice_.reach() + skin);
+  const CellGridView node_grid = nodes_.set().view();
+  node_grain_.build(node_grid, nodes_.records(), grain_grid, record_.data(), cutoff);
+  node_fluid_.build(node_grid, nodes_.records(), fluid_grid, fluid.records(), cutoff);
+  node_wall_.build(node_grid, nodes_.records(), fluid.wall_set().view(), fluid.wall_records(), cutoff);
+  grain_node_.build(grain_grid, record_.data(), node_grid, nodes_.records(), cutoff);
+  fluid_node_.build(fluid_grid, fluid.records(), node_grid, nodes_.records(), cutoff);
 }
 
 template <class Exec>
@@ -66,37 +64,46 @@ void GrainFluidCoupling<Exec>::pack_water(const sph::FluidSystem<Exec>& fluid) {
 }
 
 template <class Exec>
-void GrainFluidCoupling<Exec>::find_porosity(sph::FluidSystem<Exec>& fluid, Index grain_clusters, Start start) {
-  const Index water_clusters = fluid.set().clusters();
+void GrainFluidCoupling<Exec>::find_porosity(sph::FluidSystem<Exec>& fluid, Start start) {
+  const Index nodes = nodes_.clusters(), water_clusters = fluid.set().clusters();
+  const AveragingSpline spline = lattice_.spline();
+  float* sums = node_sums_.data();
+  const NodePairs of_fluid{spline, fluid_node_.view(), fluid.records(), nodes_.records()};
+  exec::pair_pass(exec_, "coupling::room", nodes,
+                  AddAtNodes{{spline, node_wall_.view(), nodes_.records(), fluid.wall_records()}, nullptr, 0,
+                             lattice_volume(), sums + node_wall});
   exec::pair_pass(exec_, "coupling::room", water_clusters,
-                  RoomOfWater{kernel_of(law_), lattice_volume(), fluid_wall_.view(), fluid.records(),
-                              fluid.wall_records(), water_.data()});
+                  ReadAtPlaces{of_fluid, sums + node_wall, nullptr, 0, water_.data() + water_boost, water_rows});
   exec::parallel_for(exec_, "coupling::room_finish", fluid.slots(), RoomToBoost{water_.data()});
   pack_water(fluid);
-  exec::pair_pass(exec_, "coupling::wet", grain_clusters,
-                  WaterAtGrains{kernel_of(law_), grain_fluid_.view(), record_.data(), fluid.records(), water_.data(),
-                                sums_.data()});
+  exec::pair_pass(exec_, "coupling::wet", nodes,
+                  AddAtNodes{{spline, node_fluid_.view(), nodes_.records(), fluid.records()}, water_.data(), water_rows,
+                             1.0f, sums + node_water});
+  exec::pair_pass(exec_, "coupling::wet", grain_slots_ / exec::cluster_size,
+                  ReadAtPlaces{{spline, grain_node_.view(), record_.data(), nodes_.records()}, sums + node_water, nullptr, 0,
+                               sums_.data() + sum_water, sum_rows});
   exec::parallel_for(exec_, "coupling::deposit", grain_slots_, Deposit{sums_.data(), record_.data(), start == Start::guess});
+  exec::pair_pass(exec_, "coupling::porosity", nodes,
+                  AddAtNodes{{spline, node_grain_.view(), nodes_.records(), record_.data()}, record_.data() + row_volume,
+                             record_size, 1.0f, sums + node_solid});
   exec::pair_pass(exec_, "coupling::porosity", water_clusters,
-                  FluidPorosity{kernel_of(law_), fluid_grain_.view(), fluid.records(), record_.data(), water_.data(),
-                                reaction_.data()});
+                  ReadAtPlaces{of_fluid, sums + node_solid, water_.data() + water_boost, water_rows, reaction_.data(), 12});
   exec::parallel_for(exec_, "coupling::porosity_finish", fluid.slots(),
                      SolidToPorosity{reaction_.data(), fluid.densities(), fluid.porosity(), start == Start::settle});
 }
 
 template <class Exec>
-void GrainFluidCoupling<Exec>::update_porosity(sph::FluidSystem<Exec>& fluid, Index grain_clusters) {
-  find_porosity(fluid, grain_clusters, Start::none);
+void GrainFluidCoupling<Exec>::update_porosity(sph::FluidSystem<Exec>& fluid) {
+  find_porosity(fluid, Start::none);
 }
 
 template <class Exec>
 void GrainFluidCoupling<Exec>::start_porosity(const dem::GrainSystem<Exec>& grains, sph::FluidSystem<Exec>& fluid) {
-  const Index clusters = grains.set().clusters();
-  find_porosity(fluid, clusters, Start::guess);
+  find_porosity(fluid, Start::guess);
   fluid.fill_pores(true);
   for (int round = 0; round < 12; ++round) {
     place(grains, 0.0);
-    find_porosity(fluid, clusters, Start::settle);
+    find_porosity(fluid, Start::settle);
     fluid.fill_pores(false);
   }
 }
@@ -105,9 +112,14 @@ template <class Exec>
 void GrainFluidCoupling<Exec>::gather_forces(dem::GrainSystem<Exec>& grains, sph::FluidSystem<Exec>& fluid) {
   const Vec3f rho_g = static_cast<Vec3f>(law_.gravity * law_.fluid_density);
   pack_water(fluid);
+  const Index nodes = nodes_.clusters();
+  const AveragingSpline spline = lattice_.spline();
+  float* sums = node_sums_.data();
+  exec::pair_pass(exec_, "coupling::water_at_nodes", nodes,
+                  WaterAtNodes{{spline, node_fluid_.view(), nodes_.records(), fluid.records()}, rho_g, water_.data(),
+                               fluid.porosity(), sums});
   exec::pair_pass(exec_, "coupling::gather", grains.set().clusters(),
-                  GatherAtGrains{kernel_of(law_), rho_g, grain_fluid_.view(), record_.data(), fluid.records(),
-                                 water_.data(), fluid.porosity(), sums_.data()});
+                  GatherAtGrains{{spline, grain_node_.view(), record_.data(), nodes_.records()}, rho_g, sums, sums_.data()});
   exec::parallel_for(exec_, "coupling::forces", grains.slots(),
                      ForcesOnGrains{grains.records(), grains.ids(), grains.groups(), record_.data(), sums_.data(),
                                     real_diameter_.empty() ? nullptr : real_diameter_.data(), law_.drag,
@@ -117,9 +129,11 @@ void GrainFluidCoupling<Exec>::gather_forces(dem::GrainSystem<Exec>& grains, sph
                                     fluid_mass_.data(), added_mass_.data(), fluid_velocity_.data(),
                                     fluid_acceleration_.data(), other_force_.data()});
   const double c = fluid.parameters().sound_speed;
+  exec::pair_pass(exec_, "coupling::mixture", nodes,
+                  MixtureAtNodes{{spline, node_grain_.view(), nodes_.records(), record_.data()}, rho_g, sums});
   exec::pair_pass(exec_, "coupling::mixture", fluid.set().clusters(),
-                  MixturePressure{kernel_of(law_), rho_g, static_cast<float>(1.0 / (law_.fluid_density * c * c)),
-                                  fluid_grain_.view(), record_.data(), water_.data(), fluid.porosity(),
+                  MixturePressure{{spline, fluid_node_.view(), fluid.records(), nodes_.records()}, rho_g,
+                                  static_cast<float>(1.0 / (law_.fluid_density * c * c)), sums, water_.data(), fluid.porosity(),
                                   fluid.parameters().paper_form ? fluid.densities() : nullptr, fluid.mixture_records()});
   grains.set_fluid({drag_coefficient_.data(), fluid_mass_.data(), added_mass_.data(), other_force_.data(),
                     fluid_acceleration_.data(), fluid_velocity_.data()});
@@ -132,11 +146,14 @@ void GrainFluidCoupling<Exec>::react(const dem::GrainSystem<Exec>& grains, sph::
                      PackReaction{grains.ids(), grains.velocities(), velocity_before_.data(), fluid_acceleration_.data(),
                                   added_mass_.data(), grains.drag_impulse(), sums_.data(), 1.0f / dt,
                                   static_cast<float>(grains.kicked()) / dt, record_.data()});
+  const Vec3f rho_g = static_cast<Vec3f>(law_.gravity * law_.fluid_density);
+  const AveragingSpline spline = lattice_.spline();
+  exec::pair_pass(exec_, "coupling::reaction", nodes_.clusters(),
+                  ReactionAtNodes{{spline, node_grain_.view(), nodes_.records(), record_.data()}, rho_g, node_sums_.data()});
   exec::pair_pass(exec_, "coupling::reaction", fluid.set().clusters(),
-                  ReactionOnFluid{kernel_of(law_), static_cast<Vec3f>(law_.gravity * law_.fluid_density),
-                                  static_cast<float>(1.0 / law_.fluid_density) / lattice_volume(),
-                                  fluid_grain_.view(), fluid.records(), record_.data(), water_.data(),
-                                  fluid.mass_share(), reaction_.data()});
+                  ReactionOnFluid{{spline, fluid_node_.view(), fluid.records(), nodes_.records()}, rho_g,
+                                  static_cast<float>(1.0 / law_.fluid_density) / lattice_volume(), node_sums_.data(),
+                                  water_.data(), fluid.mass_share(), reaction_.data()});
   exec::parallel_for(exec_, "coupling::unpack", fluid.slots(),
                      UnpackReaction{reaction_.data(), fluid.external_acceleration()});
 }

@@ -16,6 +16,7 @@
 //   stable with it in a packed bed). Source: Maxey and Riley (1983), doi:10.1063/1.864230.
 #pragma once
 
+#include "coupling/averaging_nodes.hpp"
 #include "coupling/drag_kinds.hpp"
 #include "dem/grain_system.hpp"
 #include "neighbors/cluster_list.hpp"
@@ -45,17 +46,17 @@ class GrainFluidCoupling {
  public:
   GrainFluidCoupling(const Exec& exec, const Domain& domain, const CouplingLaw& law);
 
-  /// Builds both lists for the current order of both sets; valid while the movements of water and grains add up to
+  /// Chooses the nodes and builds the lists for the current order of both sets; valid while the movements of water and grains add up to
   /// less than `skin` (m).
   void rebuild(const dem::GrainSystem<Exec>& grains, const sph::FluidSystem<Exec>& fluid, double skin);
   /// False when no grain is in reach of water: nothing else needs to be called.
-  bool in_contact() const { return grain_fluid_.entries() > 0; }
+  bool in_contact() const { return nodes_.clusters() > 0; }
 
   /// Packs the grains' records where they will be in `ahead` seconds at their present velocity: half a step makes the
   /// coupling a leapfrog (at their place now it is explicit Euler, which feeds energy into waves between grains and water).
   void place(const dem::GrainSystem<Exec>& grains, double ahead);
   /// Porosity at the fluid particles, from the grains as placed.
-  void update_porosity(sph::FluidSystem<Exec>& fluid, Index grain_clusters);
+  void update_porosity(sph::FluidSystem<Exec>& fluid);
   /// At the start: porosity, and water at its true density in the pores. Room and porosity depend on each other.
   void start_porosity(const dem::GrainSystem<Exec>& grains, sph::FluidSystem<Exec>& fluid);
   /// From the fluid's records: what it asks of the grains for a step. Leaves the mixture pressure in the records, for the fluid's momentum, which is next.
@@ -70,22 +71,25 @@ class GrainFluidCoupling {
   /// The members that a checkpoint keeps (exec/state_archive.hpp).
   template <class Archive>
   void archive(Archive& a) {
-    a(grain_fluid_, fluid_grain_, fluid_wall_, fluid_slots_, grain_slots_, record_, sums_, water_,
+    a(nodes_, node_grain_, node_fluid_, node_wall_, grain_node_, fluid_node_, node_sums_, fluid_slots_, grain_slots_, record_, sums_, water_,
       velocity_before_, porosity_, drag_coefficient_, fluid_mass_, added_mass_, fluid_velocity_, fluid_acceleration_, other_force_,
       reaction_);
   }
 
  private:
   enum class Start { none, guess, settle };
-  void find_porosity(sph::FluidSystem<Exec>& fluid, Index grain_clusters, Start start);
+  void find_porosity(sph::FluidSystem<Exec>& fluid, Start start);
   float lattice_volume() const;                              ///< m3, or m2 in two dimensions
   void pack_water(const sph::FluidSystem<Exec>& fluid);
 
   Exec exec_;
   Domain domain_;
   CouplingLaw law_;
-  ClusterList<Exec> grain_fluid_, fluid_grain_, fluid_wall_;
+  NodeLattice lattice_;
+  AveragingNodes<Exec> nodes_;
+  ClusterList<Exec> node_grain_, node_fluid_, node_wall_, grain_node_, fluid_node_;
   Index fluid_slots_ = 0, grain_slots_ = 0;
+  Array<float, Exec> node_sums_;         ///< rows of coupling_passes.hpp, per cluster of nodes
   Array<float, Exec> real_diameter_;
   Array<float, Exec> record_;            ///< x y z V w/N | D/N (3) and offset (coupling.buoyancy), 4 each, per cluster
   Array<float, Exec> sums_;              ///< 12 rows of 4 per cluster, as gathered

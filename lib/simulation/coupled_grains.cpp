@@ -30,7 +30,7 @@ void CoupledSimulation<Exec>::start_grains(const SimulationInput& input) {
   law.dimensions = p.dimensions;
   for (double d : input.coupling.real_diameter) law.real_diameter.push_back(static_cast<float>(d));
   coupling_ = std::make_unique<coupling::GrainFluidCoupling<Exec>>(exec_, domain_, law);
-  coupling_skin_ = 0.25 * law.smoothing_length;
+  coupling_skin_ = 0.12 * law.smoothing_length;
   refresh_coupling(0.0, true);
   if (coupling_->in_contact() && input.fluid.mass_share.empty()) {
     coupling_->start_porosity(*grains_, fluid_);
@@ -60,7 +60,7 @@ template <class Exec>
 void CoupledSimulation<Exec>::porosity_now(double ahead) {
   if (!grains_in_water()) return;
   coupling_->place(*grains_, ahead);
-  coupling_->update_porosity(fluid_, grains_->set().clusters());
+  coupling_->update_porosity(fluid_);
   fluid_.pack();
 }
 

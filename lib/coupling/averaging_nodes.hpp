@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The nodes through which grains and water are averaged over each other (coupling.averaging): those points of a lattice,
+// fixed in space, that have both grains and water in reach. A set of places like the others, with records for lists.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "coupling/averaging_spline.hpp"
+#include "neighbors/cluster_list.hpp"
+
+namespace gdesp::coupling {
+
+/// Particles that nodes are chosen for.
+struct PlacesOfSet {
+  CellGridView grid;
+  const FixedPosition* position;
+  const std::uint32_t* id;
+  Index slots;
+};
+
+/// The lattice: every tile of the domain holds the same whole number of nodes along each axis.
+struct NodeLattice {
+  Domain domain;
+  Vec3<std::int32_t> count;   ///< nodes a tile, along each axis; 1 along y in the plane
+
+  NodeLattice() = default;
+  /// `spacing`: m, wanted; the nearest that divides a tile is taken.
+  NodeLattice(const Domain& domain, double spacing);
+  AveragingSpline spline() const;
+  /// m, beyond which a node has no weight.
+  double reach() const;
+  GDESP_HD Index nodes_of_tile() const { return count.x * count.y * count.z; }
+};
+
+inline NodeLattice::NodeLattice(const Domain& domain_, double spacing) : domain(domain_) {
+  for (int axis = 0; axis < 3; ++axis) {
+    count[axis] = std::max(2, static_cast<std::int32_t>(std::lround(domain.tile_size[axis] / spacing)));
+  }
+  if (domain.dimensions == 2) count.y = 1;
+}
+
+inline AveragingSpline NodeLattice::spline() const {
+  AveragingSpline spline{{}, 1.0f, domain.dimensions == 2};
+  double volume = 1.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double spacing = domain.tile_size[axis] / count[axis];
+    spline.inverse_spacing[axis] = static_cast<float>(1.0 / spacing);
+    if (axis != 1 || !spline.plane) volume *= spacing;
+  }
+  spline.inverse_volume = static_cast<float>(1.0 / volume);
+  return spline;
+}
+
+inline double NodeLattice::reach() const {
+  double widest = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (axis != 1 || domain.dimensions == 3) widest = std::max(widest, domain.tile_size[axis] / count[axis]);
+  }
+  return static_cast<double>(spline_reach) * widest;
+}
+
+template <class Exec>
+class AveragingNodes {
+ public:
+  AveragingNodes(const Exec& exec, const NodeLattice& lattice);
+
+  /// Chooses the nodes: in reach of grains and of water, while they move less than `skin` (m).
+  void build(const PlacesOfSet& grains, const PlacesOfSet& water, double skin);
+
+  const ClusterSet<Exec>& set() const { return set_; }
+  Index clusters() const { return set_.clusters(); }
+  const float* records() const { return record_.data(); }   ///< places; padding beyond reach
+
+  /// The members that a checkpoint keeps (exec/state_archive.hpp).
+  template <class Archive>
+  void archive(Archive& a) { a(set_, record_); }
+
+ private:
+  void mark_near(const PlacesOfSet& places, Index cells, int reach, Array<std::uint8_t, Exec>& near);
+
+  Exec exec_;
+  NodeLattice lattice_;
+  ClusterSet<Exec> set_;
+  Array<Index, Exec> wanted_, storage_, tile_, row_count_, row_begin_;
+  Array<std::uint8_t, Exec> occupied_, near_grains_, near_water_;
+  Array<FixedPosition, Exec> position_;
+  Array<std::uint32_t, Exec> id_;
+  Array<float, Exec> record_, room_;
+};
+
+}  // namespace gdesp::coupling

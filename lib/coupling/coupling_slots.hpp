@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the coupling makes of each grain and each particle of water, one by one; and where sums stand in memory.
+#pragma once
+
+#include "coupling/buoyancy.hpp"
+#include "coupling/drag.hpp"
+#include "coupling/grain_fluid_coupling.hpp"
+#include "sph/cavitation.hpp"
+#include "sph/tait.hpp"
+
+namespace gdesp::coupling {
+
+// Rows of a record of grains (four floats each), as the passes leave them.
+enum GrainRow { row_x = 0, row_y = 4, row_z = 8, row_volume = 12, row_force = 16, row_offset = 28 };
+// Rows of the water's own: u = volume over the room that walls leave (m3), pressure (Pa), 1/that room.
+constexpr Index water_rows = 12, water_boost = 8;
+// Rows of the sums at grains.
+constexpr Index sum_rows = 48;
+enum SumRow { sum_water = 0, sum_porosity = 4, sum_velocity = 8, sum_pressure = 20, sum_water_gradient = 24,
+              sum_pressure_gradient = 36 };
+
+GDESP_HD inline float grain_volume(float R, bool discs) {
+  return discs ? 3.14159265f * R * R : 4.18879020f * R * R * R;
+}
+
+struct PackGrains {
+  Domain domain;
+  const Vec3<std::int32_t>* cluster_tile;
+  const FixedPosition* position;
+  const dem::GrainRecord* grain;
+  const std::uint32_t* id;
+  bool discs;
+  float* record;
+  Vec3f* velocity_before;
+  const Vec3f* velocity;
+  float ahead;  // s
+  GDESP_HD void operator()(Index s) const {
+    const Index c = s / exec::cluster_size;
+    float* r = record + record_offset(c) + s % exec::cluster_size;
+    const bool real_grain = id[s] != no_particle;
+    const Vec3f x = real_grain ? domain.relative_to_tile(position[s], cluster_tile[c])
+                               : Vec3f{padding_coordinate, padding_coordinate, padding_coordinate};
+    const float R = real_grain ? grain[s].radius : 0.0f;
+    const bool moves = real_grain && grain[s].mobility > 0.0f;
+    const float dt = moves ? ahead : 0.0f;
+    r[0] = x.x + grain[s].vx * dt;
+    r[4] = x.y + grain[s].vy * dt;
+    r[8] = x.z + grain[s].vz * dt;
+    r[row_volume] = grain_volume(R, discs);
+    r[16] = r[20] = r[24] = r[row_offset] = 0.0f;
+    velocity_before[s] = velocity[s];
+  }
+};
+
+// The water's own rows, whatever form its records have.
+struct PackWater {
+  const std::uint32_t* id;
+  const float* density;
+  const float* porosity;
+  const float* mass_share;
+  bool cavitates;
+  float V0, stiffness;
+  float* water;
+  GDESP_HD void operator()(Index s) const {
+    float* r = water + water_rows * static_cast<std::int64_t>(s / exec::cluster_size) + s % exec::cluster_size;
+    const bool real_particle = id[s] != no_particle;
+    const float ratio = 1.0f + density[s], eps = porosity[s];
+    r[0] = real_particle ? V0 * mass_share[s] / sph::cavitated_density(ratio, eps, cavitates) * r[8] : 0.0f;
+    r[4] = real_particle ? stiffness * sph::cavitated_pressure(sph::tait_pressure(ratio / eps - 1.0f), cavitates) : 0.0f;
+  }
+};
+
+struct RoomToBoost {
+  float* water;
+  GDESP_HD void operator()(Index s) const {
+    float* r = water + water_rows * static_cast<std::int64_t>(s / exec::cluster_size) + s % exec::cluster_size;
+    r[8] = 1.0f / open_share(r[8]);
+  }
+};
+
+// V to V w/N.
+struct Deposit {
+  const float* sums;
+  float* record;
+  bool all;  // whatever touches water, before it is known how much room the water takes
+  GDESP_HD void operator()(Index s) const {
+    const std::int64_t c = s / exec::cluster_size, lane = s % exec::cluster_size;
+    float* r = record + record_offset(static_cast<Index>(c)) + lane;
+    const float N = sums[sum_rows * c + lane + sum_water];
+    r[row_volume] = all ? (N > 0.02f ? r[row_volume] : 0.0f) : deposited_volume(r[row_volume], N);
+  }
+};
+
+struct SolidToPorosity {
+  const float* solid;
+  const float* density;
+  float* porosity;
+  bool starting;
+  GDESP_HD void operator()(Index s) const {
+    const float found = real::max(1.0f - solid[12 * static_cast<std::int64_t>(s / exec::cluster_size) + s % exec::cluster_size],
+                                  least_porosity);
+    // Opened water takes its room from the porosity before: half of the way, so that the two settle.
+    const bool opened = starting || 1.0f + density[s] < 0.98f * porosity[s];
+    porosity[s] = opened ? 0.5f * (found + porosity[s]) : found;
+  }
+};
+
+GDESP_HD inline Vec3f vector_at(const float* q) { return {q[0], q[4], q[8]}; }
+
+struct ForcesOnGrains {
+  const dem::GrainRecord* grain;
+  const std::uint32_t* id;
+  const std::int32_t* group;
+  float* record;
+  const float* sums;
+  const float* real_diameter;  // per group; null: their own
+  Drag law;
+  bool discs;
+  float density, viscosity, added_mass_factor;
+  Vec3f gravity;
+  float* porosity;
+  float* drag_coefficient;
+  float* fluid_mass;
+  float* added_mass;
+  Vec3f* fluid_velocity;
+  Vec3f* fluid_acceleration;
+  Vec3f* other_force;
+
+  GDESP_HD void operator()(Index s) const {
+    const std::int64_t c = s / exec::cluster_size, lane = s % exec::cluster_size;
+    const float* q = sums + sum_rows * c + lane;
+    float* r = record + record_offset(static_cast<Index>(c)) + lane;
+    r[row_volume] = r[row_offset] = 0.0f;
+    drag_coefficient[s] = fluid_mass[s] = added_mass[s] = 0.0f;
+    porosity[s] = 1.0f;
+    fluid_velocity[s] = fluid_acceleration[s] = other_force[s] = {};
+    const float N = q[sum_water], wet = immersion(N);
+    if (id[s] == no_particle || wet <= 0.0f) return;
+    const float inverse = 1.0f / N;
+    const float eps = real::min(real::max(q[sum_porosity] * inverse, porosity_floor), 1.0f);
+    const Vec3f u = vector_at(q + sum_velocity) * inverse;
+    const float R = grain[s].radius, V = grain_volume(R, discs);
+    const Buoyancy push = buoyancy(V, {N, q[sum_pressure], vector_at(q + sum_water_gradient),
+                                       vector_at(q + sum_pressure_gradient)}, gravity * density);
+    const float given = real_diameter ? real_diameter[group[s]] : 0.0f;
+    const Vec3f v{grain[s].vx, grain[s].vy, grain[s].vz};
+    const DragState state{eps, norm(u - v), given > 0.0f ? given : 2.0f * R, density, viscosity};
+    const float K = law == Drag::ergun_wen_yu ? ergun_wen_yu_drag(state) : di_felice_drag(state);
+    // Fluid that belongs to the grain: less of it where the room around is only partly wet.
+    fluid_mass[s] = density * V * eps * real::min(N, 1.0f) / real::max(1.0f - eps, 1.0e-3f);
+    // Faded out towards a packed bed: buoyancy and added mass together react with (1 - eps)(1 + C_m) of the water's own
+    // pressure acceleration, which explicit coupling bears only below one.
+    const float dilute = real::min(real::max((eps - 0.6f) / 0.3f, 0.0f), 1.0f);
+    const float m_added = wet * dilute * added_mass_factor * density * V;
+    r[row_volume] = push.slope;
+    r[row_offset] = push.offset;
+    porosity[s] = eps;
+    fluid_velocity[s] = u;
+    drag_coefficient[s] = wet * K * V;
+    added_mass[s] = m_added;
+    fluid_acceleration[s] = push.gradient * (-1.0f / density) + gravity;
+    other_force[s] = push.force + m_added * fluid_acceleration[s];
+  }
+};
+
+// What each grain took besides pressure, over N, into its record.
+struct PackReaction {
+  const std::uint32_t* id;
+  const Vec3f* velocity;
+  const Vec3f* velocity_before;
+  const Vec3f* fluid_acceleration;
+  const float* added_mass;
+  const Vec3d* drag_impulse;
+  const float* sums;
+  float inverse_dt, kick_share;  // 1/s; time of constant forces over dt
+  float* record;
+  GDESP_HD void operator()(Index s) const {
+    const std::int64_t c = s / exec::cluster_size, lane = s % exec::cluster_size;
+    float* r = record + record_offset(static_cast<Index>(c)) + lane;
+    if (id[s] == no_particle || r[row_volume] <= 0.0f) return;   // dry
+    const float N = sums[sum_rows * c + lane + sum_water];
+    const Vec3f change = velocity[s] - velocity_before[s];
+    const Vec3f F = fluid_acceleration[s] * (added_mass[s] * kick_share) +
+                    static_cast<Vec3f>(drag_impulse[s] * static_cast<double>(inverse_dt)) - change * (added_mass[s] * inverse_dt);
+    r[row_force] = F.x / N;
+    r[row_force + 4] = F.y / N;
+    r[row_force + 8] = F.z / N;
+    r[row_volume] *= kick_share;
+    r[row_offset] *= kick_share;
+  }
+};
+
+struct UnpackReaction {
+  const float* reaction;
+  Vec3f* external;
+  GDESP_HD void operator()(Index s) const {
+    const float* r = reaction + 12 * static_cast<std::int64_t>(s / exec::cluster_size) + s % exec::cluster_size;
+    external[s] = {r[0], r[4], r[8]};
+  }
+};
+
+}  // namespace gdesp::coupling

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Averaging over nodes: the spline, the spread of the kernel that it makes, and which nodes are chosen.
+// @eq coupling.averaging
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "coupling/averaging_nodes.hpp"
+#include "exec/array.hpp"
+
+namespace gdesp::coupling {
+namespace {
+
+using exec::OpenMP;
+
+TEST(AveragingSpline, weights_add_up_to_one_and_carry_linear_functions) {
+  for (float x = 0.0f; x < 1.0f; x += 0.07f) {
+    float sum = 0.0f, mean = 0.0f, slope = 0.0f;
+    for (int n = -3; n <= 3; ++n) {
+      const float s = x - static_cast<float>(n);
+      sum += cubic_spline(s);
+      mean += cubic_spline(s) * static_cast<float>(n);
+      slope += cubic_spline_slope(s) * static_cast<float>(n);
+    }
+    EXPECT_NEAR(sum, 1.0f, 1e-6f);
+    EXPECT_NEAR(mean, x, 1e-6f);
+    EXPECT_NEAR(slope, 1.0f, 1e-5f);
+  }
+}
+
+TEST(AveragingSpline, gradient_is_the_derivative_and_the_cut_off_corners_weigh_nothing) {
+  const AveragingSpline spline{{2.0f, 3.0f, 4.0f}, 24.0f, false};
+  const float x = 0.31f, y = -0.22f, z = 0.17f, d = 1e-3f;
+  AveragingSpline::Gradient<float> gradient;
+  EXPECT_FLOAT_EQ(spline.weight(x, y, z, gradient), spline.weight(x, y, z));
+  EXPECT_NEAR(gradient.x, (spline.weight(x + d, y, z) - spline.weight(x - d, y, z)) / (2 * d), 2e-3f);
+  EXPECT_NEAR(gradient.y, (spline.weight(x, y + d, z) - spline.weight(x, y - d, z)) / (2 * d), 2e-3f);
+  EXPECT_NEAR(gradient.z, (spline.weight(x, y, z + d) - spline.weight(x, y, z - d)) / (2 * d), 2e-3f);
+  float sum = 0.0f;   // the middle of a cell: the corners are furthest there
+  for (int i = -2; i < 2; ++i)
+    for (int j = -2; j < 2; ++j)
+      for (int k = -2; k < 2; ++k) {
+        sum += spline.weight((static_cast<float>(i) + 0.5f) / 2.0f, (static_cast<float>(j) + 0.5f) / 3.0f,
+                             (static_cast<float>(k) + 0.5f) / 4.0f);
+      }
+  EXPECT_NEAR(sum, 1.0f, 1e-4f);
+}
+
+// The variance of two splines, one after the other, is that of the Wendland kernel of length h_c.
+TEST(AveragingSpline, spread_is_that_of_the_kernel) {
+  const double h = 1.0;
+  for (const int dimensions : {2, 3}) {
+    double moment = 0.0, sum = 0.0;
+    for (double r = 5e-4; r < 2.0 * h; r += 1e-3) {
+      const double q = r / (2.0 * h), w = std::pow(1.0 - q, 4) * (1.0 + 4.0 * q) * std::pow(r, dimensions - 1);
+      sum += w;
+      moment += w * r * r / dimensions;
+    }
+    const double spacing = node_spacing(h, dimensions);
+    EXPECT_NEAR(2.0 * spacing * spacing / 3.0, moment / sum, 1e-4);
+  }
+}
+
+// Nodes are those of the lattice with grains and water in reach: against a search over all, periodic along x.
+TEST(AveragingNodes, are_all_that_are_in_reach_of_both) {
+  const bool periodic[3] = {true, false, false};
+  const double dp = 0.01;
+  const Domain domain = make_domain({0, 0, 0}, {1.28, 0.5, 0.9}, dp, periodic, 3);
+  const NodeLattice lattice(domain, 2.5 * dp);
+  OpenMP exec;
+  const std::vector<Vec3d> grains{{0.004, 0.25, 0.3}, {0.7, 0.01, 0.64}}, water{{1.26, 0.24, 0.31}, {0.72, 0.03, 0.66}, {0.4, 0.4, 0.4}};
+  const auto make_set = [&](const std::vector<Vec3d>& places, ClusterSet<OpenMP>& set, exec::Array<FixedPosition, OpenMP>& position,
+                            exec::Array<std::uint32_t, OpenMP>& id) {
+    std::vector<FixedPosition> fixed;
+    std::vector<std::uint32_t> ids;
+    for (const Vec3d& r : places) {
+      fixed.push_back(domain.fixed(r));
+      ids.push_back(static_cast<std::uint32_t>(ids.size()));
+    }
+    position.assign(fixed);
+    id.assign(ids);
+    exec::Array<float, OpenMP> room(exec);
+    set = ClusterSet<OpenMP>(exec, domain, 2.0 * dp);
+    set.build(position, id, static_cast<Index>(places.size()), room);
+    return PlacesOfSet{set.view(), position.data(), id.data(), static_cast<Index>(places.size())};
+  };
+  ClusterSet<OpenMP> grain_set, water_set;
+  exec::Array<FixedPosition, OpenMP> grain_position(exec), water_position(exec);
+  exec::Array<std::uint32_t, OpenMP> grain_id(exec), water_id(exec);
+  AveragingNodes<OpenMP> nodes(exec, lattice);
+  const PlacesOfSet of_grains = make_set(grains, grain_set, grain_position, grain_id);
+  nodes.build(of_grains, make_set(water, water_set, water_position, water_id), 0.0);
+
+  std::set<std::array<int, 3>> chosen;
+  for (Index s = 0; s < nodes.set().slots(); ++s) {
+    const float* r = nodes.records() + record_offset(s / exec::cluster_size) + s % exec::cluster_size;
+    if (r[0] > 0.5f * padding_coordinate) continue;
+    const Vec3<std::int32_t> tile = nodes.set().view().cluster_tile[s / exec::cluster_size];
+    std::array<int, 3> at{};
+    for (int axis = 0; axis < 3; ++axis) {
+      const double spacing = domain.tile_size[axis] / lattice.count[axis];
+      const double c = (tile[axis] * domain.tile_size[axis] + static_cast<double>(r[4 * axis])) / spacing - 0.5;
+      EXPECT_NEAR(c, std::round(c), 1e-4);
+      at[static_cast<std::size_t>(axis)] = static_cast<int>(std::lround(c));
+    }
+    EXPECT_TRUE(chosen.insert(at).second) << "a node stands twice";
+  }
+  const auto in_reach = [&](const std::vector<Vec3d>& places, const Vec3d& node) {
+    for (const Vec3d& r : places)
+      for (const double image : {-1.28, 0.0, 1.28}) {
+        const Vec3d d = node - (r + Vec3d{image, 0.0, 0.0});
+        if (std::sqrt(dot(d, d)) < lattice.reach()) return true;
+      }
+    return false;
+  };
+  std::size_t wanted = 0;
+  for (int x = 0; x < domain.tiles.x * lattice.count.x; ++x)
+    for (int y = 0; y < domain.tiles.y * lattice.count.y; ++y)
+      for (int z = 0; z < domain.tiles.z * lattice.count.z; ++z) {
+        const Vec3d node{(x + 0.5) * domain.tile_size.x / lattice.count.x, (y + 0.5) * domain.tile_size.y / lattice.count.y,
+                         (z + 0.5) * domain.tile_size.z / lattice.count.z};
+        if (!in_reach(grains, node) || !in_reach(water, node)) continue;
+        ++wanted;
+        EXPECT_TRUE(chosen.count({x, y, z})) << x << " " << y << " " << z;
+      }
+  EXPECT_GT(wanted, 20u);
+  EXPECT_LT(chosen.size(), 8 * wanted);   // those in reach, and not all that there are
+}
+
+}  // namespace
+}  // namespace gdesp::coupling
