@@ -134,7 +134,10 @@ void write_log_ticks(std::ostream& out, const char* axis, const Range& r) {
   }
   out << "set " << axis << "tics (";
   const char* between = "";
-  for (double decade = std::pow(10.0, std::floor(std::log10(r.low)) - 1.0); decade <= 10.0 * r.high; decade *= 10.0) {
+  const int lowest = static_cast<int>(std::floor(std::log10(r.low))) - 1;
+  for (int power = lowest; power < lowest + 6; ++power) {   // low to 100 low, and one more on either side
+    const double decade = std::pow(10.0, power);
+    if (decade > 10.0 * r.high) break;
     for (const double m : {1.0, 2.0, 5.0}) {
       out << between << '"' << format_number(m * decade) << "\" " << m * decade;
       between = ", ";
@@ -292,6 +295,7 @@ std::string script(const Figure& f, const std::string& kind, const std::string& 
     return axis + row * static_cast<double>(legend_rows(s, legend_columns(s, page)));
   };
   std::vector<double> heights;
+  heights.reserve(panel.size() + f.map.size());
   for (const Panel& p : panel) heights.push_back(f.panel_height_mm + legend_mm(p.series));
   for (const ColourMap& m : f.map) heights.push_back(1.4 * f.panel_height_mm + (m.note.empty() ? 0.0 : 9.0));
   double height = f.title.empty() ? 0.0 : 9.0;

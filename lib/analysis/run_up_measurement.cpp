@@ -51,6 +51,7 @@ void RunUpMeasurement::choose_line() {
     const auto& polygon = regions_[profile_region_].polygon;
     if (!polygon.empty()) {  // the region's own long axis
       std::vector<Vec3d> corner;
+      corner.reserve(polygon.size());
       for (const Point2& p : polygon) corner.push_back({p.x, p.y, 0.0});
       const LongAxis axis = find_long_axis(corner);
       line_ = {"the region's long axis", axis.from, axis.to};

@@ -47,7 +47,7 @@ std::vector<std::string> split_line(const std::string& line, char separator) {
     else if (c != '\r') field.back() += c;
   }
   for (std::string& f : field) {
-    const auto first = f.find_first_not_of(" "), last = f.find_last_not_of(" ");
+    const auto first = f.find_first_not_of(' '), last = f.find_last_not_of(' ');
     f = first == std::string::npos ? "" : f.substr(first, last - first + 1);
   }
   return field;
@@ -158,6 +158,7 @@ Table parse_table(std::istream& in, const std::string& name) {
                                         " values, but the header names " + std::to_string(table.column.size()));
     }
     std::vector<Cell> cells;
+    cells.reserve(field.size());
     for (const std::string& f : field) cells.push_back(parse_cell(f));
     table.row.push_back(std::move(cells));
   }

@@ -92,7 +92,8 @@ WaterSheet make_water_sheet(FrameView& view, double cell) {
   fill_surface_levels(view.water(), level);
   std::vector<float> speed = speeds_at(view, level);
   const std::vector<float> measured = level.value, ground = ground_at(view.info(), level);
-  for (double done = 0.0; done < margin * view.info().dp; done += cell) {
+  const int rings = static_cast<int>(std::ceil(margin * view.info().dp / cell));
+  for (int ring = 0; ring < rings; ++ring) {
     std::vector<std::uint8_t> from(ground.size());  // what lies under the ground leads no further: a dam has another side
     for (std::size_t k = 0; k < from.size(); ++k) from[k] = std::isfinite(measured[k]) || !(ground[k] > level.value[k]);
     extend(level, from, speed);

@@ -35,7 +35,8 @@ void find_rounding(FileReport& r, const TriangleMesh& mesh) {
   const Vec3d size = extent(bounds(mesh));
   double quantum[2] = {0.0, 0.0};
   for (int a = 0; a < 2; ++a) {
-    for (double q = std::pow(10.0, std::ceil(std::log10(std::max(size[a], 1e-300)))); q > 1e-3 * edge; q /= 10.0) {
+    for (int power = static_cast<int>(std::ceil(std::log10(std::clamp(size[a], 1e-300, 1e300)))); std::pow(10.0, power) > 1e-3 * edge; --power) {
+      const double q = std::pow(10.0, power);
       const bool all = std::all_of(mesh.vertex.begin(), mesh.vertex.end(), [&](const Vec3d& v) { return std::abs(v[a] / q - std::round(v[a] / q)) < 1e-6; });
       if (!all) continue;
       quantum[a] = q;

@@ -41,6 +41,7 @@ Dataset warp(Dataset source, const std::string& path, const std::string& from, c
   std::vector<std::string> words = {"-of", "MEM", "-r", "bilinear", "-ot", "Float64", "-dstnodata", "nan", "-t_srs", to};
   if (!from.empty()) words.insert(words.end(), {"-s_srs", from});
   std::vector<char*> argv;
+  argv.reserve(words.size() + 1);
   for (auto& w : words) argv.push_back(w.data());
   argv.push_back(nullptr);
   const std::unique_ptr<GDALWarpAppOptions, void (*)(GDALWarpAppOptions*)> options(
