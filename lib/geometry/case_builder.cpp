@@ -290,6 +290,7 @@ Case build_case(const Scene& scene, BuildReport& report, const BuildOptions& opt
   Case out;
   stages.begin("reading and checking geometry");
   const Layout layout = lay_out(scene, report.notes);
+  refuse_slides_elsewhere(layout);
   warn_of_measures_outside(layout, report.notes);
   out.scene = scene;
   out.offset = layout.offset;

@@ -39,6 +39,10 @@ Box around(const std::vector<Vec3d>& points) {
   return box;
 }
 
+std::string slide_text(const Layout& layout, std::size_t slide) {
+  return "slide \"" + layout.scene.slides[slide].name + "\" (" + span_text(bounds(layout.parts.slides[slide].mesh), layout.offset, true) + ")";
+}
+
 }  // namespace
 
 std::string span_text(const Box& box, const Vec3d& offset, bool heights) {
@@ -65,12 +69,19 @@ void warn_of_measures_outside(const Layout& layout, Notes& notes) {
   }
 }
 
-void check_room(const Layout& layout, std::size_t slide, double free, double whole, Notes& notes) {
-  const std::string what = "slide \"" + layout.scene.slides[slide].name + "\" (" + span_text(bounds(layout.parts.slides[slide].mesh), layout.offset, true) + ")";
-  const Box ground = bounds(layout.parts.terrain), box = bounds(layout.parts.slides[slide].mesh);
-  if (!is_empty(ground) && apart(box, ground, layout.scene.dimensions)) {
-    throw Error(ErrorKind::input, what + " lies outside the terrain (" + span_text(ground, layout.offset, true) + "); are both in the same coordinates and the same unit (slide.scale, slide.translate)?");
+void refuse_slides_elsewhere(const Layout& layout) {
+  const Box ground = bounds(layout.parts.terrain);
+  if (is_empty(ground)) return;
+  for (std::size_t k = 0; k < layout.parts.slides.size(); ++k) {
+    if (!apart(bounds(layout.parts.slides[k].mesh), ground, layout.scene.dimensions)) continue;
+    throw Error(ErrorKind::input, slide_text(layout, k) + " lies outside the terrain (" + span_text(ground, layout.offset, true) +
+                                      "); are both in the same coordinates and the same unit (slide.scale, slide.translate)?");
   }
+}
+
+void check_room(const Layout& layout, std::size_t slide, double free, double whole, Notes& notes) {
+  const std::string what = slide_text(layout, slide);
+  const Box ground = bounds(layout.parts.terrain);
   const double share = whole > 0.0 ? free / whole : 0.0;
   if (share < nothing) {
     throw Error(ErrorKind::input, what + " has no room: all of it lies inside the terrain, a wall or a body" +

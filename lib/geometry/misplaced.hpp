@@ -12,8 +12,11 @@ std::string span_text(const Box& box, const Vec3d& offset, bool heights = false)
 /// Warns of gauges, sections and regions that lie outside the domain.
 void warn_of_measures_outside(const Layout& layout, Notes& notes);
 
+/// Throws Error(input) when a slide lies outside the terrain in plan, saying where both are: before anything is made of the scene.
+void refuse_slides_elsewhere(const Layout& layout);
+
 /// A slide has `free` of its volume `whole` (m3, m2 in the plane) outside terrain, walls and bodies. Throws Error(input) when that
-/// is nothing, saying where slide and terrain lie; warns when a fiftieth or more is missing.
+/// is nothing; warns when a fiftieth or more is missing.
 void check_room(const Layout& layout, std::size_t slide, double free, double whole, Notes& notes);
 
 /// ", ..." to be added to what is said of water that nothing holds: that the level stands above nearly all of the ground; empty otherwise.
