@@ -3,6 +3,7 @@
 // @eq sph.momentum
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "sph/wendland_c2.hpp"
