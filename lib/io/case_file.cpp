@@ -125,7 +125,7 @@ void check_finite(const std::string& path, const char* what, const std::vector<f
   check_finite(path, what, values.data(), values.size(), 1);
 }
 void check_finite(const std::string& path, const char* what, const std::vector<Vec3f>& values) {
-  check_finite(path, what, values.empty() ? nullptr : &values[0].x, values.size(), 3);
+  if (!values.empty()) check_finite(path, what, &values[0].x, values.size(), 3);
 }
 
 void check_bodies(const std::string& path, const std::vector<std::int32_t>& body, std::size_t bodies) {
