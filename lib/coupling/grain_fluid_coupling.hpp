@@ -4,7 +4,7 @@
 //   eps_a = 1 - sum_i V_i (w_i/N_i) W_ai(h_c) / (1 - S_wall,a), not below least_porosity; at a grain
 //   eps_i = sum_a eps_a u_a W_ia / N_i, v_i = sum_a v_a u_a W_ia / N_i, N_i = sum_a u_a W_ia, u_a = V_a/(1 - S_wall,a).
 //   V_a: volume of mixture of fluid particle a (mass over superficial density) [m3]; V_i: volume of the grain [m3]; h_c:
-//   coupling length, at least two grain diameters [m]; w_i: immersion (coupling.buoyancy), a dry grain takes no room in the
+//   coupling length, at least two grain diameters [m], W: coupling.averaging; w_i: immersion (coupling.buoyancy), a dry grain takes no room in the
 //   water; S_wall,a = sum_w V_w W_aw: beside a wall half of the grains are missing, and half of the room. In the deep N = 1.
 //   Source: eqs 12, 13, 18 of the paper as meant (physics errata); Robinson, Ramaioli, Luding (2014), eqs 10-14,
 //   doi:10.1016/j.ijmultiphaseflow.2013.11.003; walls and immersion: own.
