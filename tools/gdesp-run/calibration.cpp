@@ -6,13 +6,12 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "coupling/averaging_length.hpp"
 #include "simulation/simulation.hpp"
 
 namespace gdesp::tool {
 namespace {
 
-constexpr double wall_share = 0.3, coupling_share = 0.5;
+constexpr double wall_share = 0.3, coupling_share = 1.4;
 
 /// Positions of a cube (or square) of n^dimensions points, spacing a, its lower corner half a spacing above the origin.
 template <class Visit>
@@ -109,9 +108,7 @@ StepCosts measure_step_costs(const SimulationInput& scene, const std::string& de
     costs.grain = seconds_per_step(lattice, device, 2) / substeps / static_cast<double>(lattice.grains.position.size());
     if (scene.coupling.enabled && costs.water > 0.0) {
       const float largest = *std::max_element(scene.grains.diameter.begin(), scene.grains.diameter.end());
-      const double reach = scene.coupling.smoothing_length > 0.0 ? scene.coupling.smoothing_length
-                                                                 : coupling::default_averaging_length(p.h, largest, p.dimensions);
-      costs.coupling = coupling_share * costs.water * std::pow(reach / p.h, p.dimensions);
+      costs.coupling = coupling_share * costs.water * (1.0 + std::pow(static_cast<double>(largest) / p.dp, p.dimensions));
     }
   }
   return costs;

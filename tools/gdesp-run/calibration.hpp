@@ -17,8 +17,8 @@ struct StepCosts {
   double coupling = 0.0;   ///< per grain and step of the fluid, while it is in water
 };
 
-/// Walls and coupling are taken in proportion to water: 0.3 a wall particle (two of its passes are light), and half a
-/// particle's cost times (h_c/h)^dimensions a grain, as measured in Alpe Gera (docs/economy.md).
+/// Walls and coupling are taken in proportion to water: 0.3 a wall particle (two of its passes are light), and 1.4 a grain
+/// and as much for the water of the volume that it takes, as measured in bench_coupled_step (docs/performance.md).
 StepCosts measure_step_costs(const SimulationInput& scene, const std::string& device);
 
 /// s of wall time for one step of the fluid with `grain_steps` steps of the grains.
