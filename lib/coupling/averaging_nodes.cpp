@@ -180,7 +180,7 @@ struct PackNodes {
 
 template <class Exec>
 AveragingNodes<Exec>::AveragingNodes(const Exec& exec, const NodeLattice& lattice)
-    : exec_(exec), lattice_(lattice), set_(exec, lattice.domain, 2.0 * lattice.reach() / static_cast<double>(spline_reach)),
+    : exec_(exec), lattice_(lattice), set_(exec, lattice.domain, 2.0 * lattice.widest_spacing()),
       wanted_(exec), storage_(exec), tile_(exec), row_count_(exec), row_begin_(exec), occupied_(exec), near_grains_(exec),
       near_water_(exec), position_(exec), id_(exec), record_(exec), room_(exec) {}
 
@@ -197,23 +197,19 @@ void AveragingNodes<Exec>::mark_near(const PlacesOfSet& places, Index cells, int
 }
 
 template <class Exec>
-void AveragingNodes<Exec>::build(const PlacesOfSet& grains, const PlacesOfSet& water, double skin) {
+void AveragingNodes<Exec>::build(const CellGridView& grain_grid, const PlacesOfSet& grains, const PlacesOfSet& water, double skin) {
   const Domain& domain = lattice_.domain;
   const Index tiles = domain.tiles.x * domain.tiles.y * domain.tiles.z;
   wanted_.resize_discard(static_cast<std::size_t>(tiles));
   storage_.resize_discard(static_cast<std::size_t>(tiles) + 1);
-  exec::parallel_for(exec_, "nodes::tiles", tiles, WantTiles{domain, grains.grid.tile_slot, wanted_.data()});
+  exec::parallel_for(exec_, "nodes::tiles", tiles, WantTiles{domain, grain_grid.tile_slot, wanted_.data()});
   const Index used = exec::exclusive_scan(exec_, "nodes::tiles", wanted_.data(), storage_.data(), tiles);
   tile_.resize_discard(static_cast<std::size_t>(used));
   exec::parallel_for(exec_, "nodes::tiles", tiles, NumberTiles{wanted_.data(), storage_.data(), tile_.data()});
 
   const Index cells = used * lattice_.nodes_of_tile();
   // A node half a cell away from the far side of the cell of a particle that moves by a skin.
-  double narrowest = domain.tile_size.x / lattice_.count.x;
-  for (int axis = 1; axis < 3; ++axis) {
-    if (axis != 1 || domain.dimensions == 3) narrowest = std::min(narrowest, domain.tile_size[axis] / lattice_.count[axis]);
-  }
-  const int reach = static_cast<int>(std::ceil((lattice_.reach() + skin) / narrowest - 0.5));
+  const int reach = static_cast<int>(std::ceil((lattice_.reach() + skin) / lattice_.narrowest_spacing() - 0.5));
   mark_near(grains, cells, reach, near_grains_);
   mark_near(water, cells, reach, near_water_);
 

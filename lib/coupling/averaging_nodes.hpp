@@ -13,7 +13,6 @@ namespace gdesp::coupling {
 
 /// Particles that nodes are chosen for.
 struct PlacesOfSet {
-  CellGridView grid;
   const FixedPosition* position;
   const std::uint32_t* id;
   Index slots;
@@ -28,8 +27,12 @@ struct NodeLattice {
   /// `spacing`: m, wanted; the nearest that divides a tile is taken.
   NodeLattice(const Domain& domain, double spacing);
   AveragingSpline spline() const;
+  double spacing(int axis) const { return domain.tile_size[axis] / count[axis]; }   ///< m, between nodes
+  /// m, along the axes that the scene has.
+  double widest_spacing() const;
+  double narrowest_spacing() const;
   /// m, beyond which a node has no weight.
-  double reach() const;
+  double reach() const { return static_cast<double>(spline_reach) * widest_spacing(); }
   GDESP_HD Index nodes_of_tile() const { return count.x * count.y * count.z; }
 };
 
@@ -44,20 +47,21 @@ inline AveragingSpline NodeLattice::spline() const {
   AveragingSpline spline{{}, 1.0f, domain.dimensions == 2};
   double volume = 1.0;
   for (int axis = 0; axis < 3; ++axis) {
-    const double spacing = domain.tile_size[axis] / count[axis];
-    spline.inverse_spacing[axis] = static_cast<float>(1.0 / spacing);
-    if (axis != 1 || !spline.plane) volume *= spacing;
+    spline.inverse_spacing[axis] = static_cast<float>(1.0 / spacing(axis));
+    if (axis != 1 || !spline.plane) volume *= spacing(axis);
   }
   spline.inverse_volume = static_cast<float>(1.0 / volume);
   return spline;
 }
 
-inline double NodeLattice::reach() const {
-  double widest = 0.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (axis != 1 || domain.dimensions == 3) widest = std::max(widest, domain.tile_size[axis] / count[axis]);
-  }
-  return static_cast<double>(spline_reach) * widest;
+inline double NodeLattice::widest_spacing() const {
+  const double plane = std::max(spacing(0), spacing(2));
+  return domain.dimensions == 2 ? plane : std::max(plane, spacing(1));
+}
+
+inline double NodeLattice::narrowest_spacing() const {
+  const double plane = std::min(spacing(0), spacing(2));
+  return domain.dimensions == 2 ? plane : std::min(plane, spacing(1));
 }
 
 template <class Exec>
@@ -65,8 +69,8 @@ class AveragingNodes {
  public:
   AveragingNodes(const Exec& exec, const NodeLattice& lattice);
 
-  /// Chooses the nodes: in reach of grains and of water, while they move less than `skin` (m).
-  void build(const PlacesOfSet& grains, const PlacesOfSet& water, double skin);
+  /// Chooses the nodes: in reach of grains and of water, while they move less than `skin` (m). `grain_grid`: of the grains' set.
+  void build(const CellGridView& grain_grid, const PlacesOfSet& grains, const PlacesOfSet& water, double skin);
 
   const ClusterSet<Exec>& set() const { return set_; }
   Index clusters() const { return set_.clusters(); }

@@ -25,7 +25,6 @@ void GrainFluidCoupling<Exec>::rebuild(const dem::GrainSystem<Exec>& grains, con
   const auto n = static_cast<std::size_t>(grains.slots());
   const auto water_clusters = static_cast<std::size_t>(fluid.set().clusters());
   grain_slots_ = grains.slots();
-  fluid_slots_ = fluid.slots();
   record_.resize_discard(n * 8);
   sums_.resize_discard(n * 12);
   for (auto* array : {&porosity_, &drag_coefficient_, &fluid_mass_, &added_mass_}) array->resize_discard(n);
@@ -34,8 +33,8 @@ void GrainFluidCoupling<Exec>::rebuild(const dem::GrainSystem<Exec>& grains, con
   water_.resize_discard(water_clusters * water_rows);
   place(grains, 0.0);
   const CellGridView fluid_grid = fluid.set().view(), grain_grid = grains.set().view();
-  nodes_.build({grain_grid, grains.positions(), grains.ids(), grains.slots()},
-               {fluid_grid, fluid.positions(), fluid.ids(), fluid.slots()}, skin);
+  nodes_.build(grain_grid, {grains.positions(), grains.ids(), grains.slots()},
+               {fluid.positions(), fluid.ids(), fluid.slots()}, skin);
   node_sums_.resize_discard(static_cast<std::size_t>(nodes_.clusters()) * node_rows);
   const auto cutoff = static_cast<float>(lattice_.reach() + skin);
   const CellGridView node_grid = nodes_.set().view();
@@ -64,30 +63,49 @@ void GrainFluidCoupling<Exec>::pack_water(const sph::FluidSystem<Exec>& fluid) {
 }
 
 template <class Exec>
+NodePairs GrainFluidCoupling<Exec>::grains_at_nodes() const {
+  return {lattice_.spline(), node_grain_.view(), nodes_.records(), record_.data()};
+}
+template <class Exec>
+NodePairs GrainFluidCoupling<Exec>::water_at_nodes(const sph::FluidSystem<Exec>& fluid) const {
+  return {lattice_.spline(), node_fluid_.view(), nodes_.records(), fluid.records()};
+}
+template <class Exec>
+NodePairs GrainFluidCoupling<Exec>::walls_at_nodes(const sph::FluidSystem<Exec>& fluid) const {
+  return {lattice_.spline(), node_wall_.view(), nodes_.records(), fluid.wall_records()};
+}
+template <class Exec>
+NodePairs GrainFluidCoupling<Exec>::nodes_at_grains() const {
+  return {lattice_.spline(), grain_node_.view(), record_.data(), nodes_.records()};
+}
+template <class Exec>
+NodePairs GrainFluidCoupling<Exec>::nodes_at_water(const sph::FluidSystem<Exec>& fluid) const {
+  return {lattice_.spline(), fluid_node_.view(), fluid.records(), nodes_.records()};
+}
+
+template <class Exec>
 void GrainFluidCoupling<Exec>::find_porosity(sph::FluidSystem<Exec>& fluid, Start start) {
   const Index nodes = nodes_.clusters(), water_clusters = fluid.set().clusters();
-  const AveragingSpline spline = lattice_.spline();
   float* sums = node_sums_.data();
-  const NodePairs of_fluid{spline, fluid_node_.view(), fluid.records(), nodes_.records()};
   exec::pair_pass(exec_, "coupling::room", nodes,
-                  AddAtNodes{{spline, node_wall_.view(), nodes_.records(), fluid.wall_records()}, nullptr, 0,
+                  AddAtNodes{walls_at_nodes(fluid), nullptr, 0,
                              lattice_volume(), sums + node_wall});
   exec::pair_pass(exec_, "coupling::room", water_clusters,
-                  ReadAtPlaces{of_fluid, sums + node_wall, nullptr, 0, water_.data() + water_boost, water_rows});
+                  ReadAtPlaces{nodes_at_water(fluid), sums + node_wall, nullptr, 0, water_.data() + water_boost, water_rows});
   exec::parallel_for(exec_, "coupling::room_finish", fluid.slots(), RoomToBoost{water_.data()});
   pack_water(fluid);
   exec::pair_pass(exec_, "coupling::wet", nodes,
-                  AddAtNodes{{spline, node_fluid_.view(), nodes_.records(), fluid.records()}, water_.data(), water_rows,
+                  AddAtNodes{water_at_nodes(fluid), water_.data(), water_rows,
                              1.0f, sums + node_water});
   exec::pair_pass(exec_, "coupling::wet", grain_slots_ / exec::cluster_size,
-                  ReadAtPlaces{{spline, grain_node_.view(), record_.data(), nodes_.records()}, sums + node_water, nullptr, 0,
+                  ReadAtPlaces{nodes_at_grains(), sums + node_water, nullptr, 0,
                                sums_.data() + sum_water, sum_rows});
   exec::parallel_for(exec_, "coupling::deposit", grain_slots_, Deposit{sums_.data(), record_.data(), start == Start::guess});
   exec::pair_pass(exec_, "coupling::porosity", nodes,
-                  AddAtNodes{{spline, node_grain_.view(), nodes_.records(), record_.data()}, record_.data() + row_volume,
+                  AddAtNodes{grains_at_nodes(), record_.data() + row_volume,
                              record_size, 1.0f, sums + node_solid});
   exec::pair_pass(exec_, "coupling::porosity", water_clusters,
-                  ReadAtPlaces{of_fluid, sums + node_solid, water_.data() + water_boost, water_rows, reaction_.data(), 12});
+                  ReadAtPlaces{nodes_at_water(fluid), sums + node_solid, water_.data() + water_boost, water_rows, reaction_.data(), 12});
   exec::parallel_for(exec_, "coupling::porosity_finish", fluid.slots(),
                      SolidToPorosity{reaction_.data(), fluid.densities(), fluid.porosity(), start == Start::settle});
 }
@@ -113,13 +131,12 @@ void GrainFluidCoupling<Exec>::gather_forces(dem::GrainSystem<Exec>& grains, sph
   const Vec3f rho_g = static_cast<Vec3f>(law_.gravity * law_.fluid_density);
   pack_water(fluid);
   const Index nodes = nodes_.clusters();
-  const AveragingSpline spline = lattice_.spline();
   float* sums = node_sums_.data();
   exec::pair_pass(exec_, "coupling::water_at_nodes", nodes,
-                  WaterAtNodes{{spline, node_fluid_.view(), nodes_.records(), fluid.records()}, rho_g, water_.data(),
+                  WaterAtNodes{water_at_nodes(fluid), rho_g, water_.data(),
                                fluid.porosity(), sums});
   exec::pair_pass(exec_, "coupling::gather", grains.set().clusters(),
-                  GatherAtGrains{{spline, grain_node_.view(), record_.data(), nodes_.records()}, rho_g, sums, sums_.data()});
+                  GatherAtGrains{nodes_at_grains(), rho_g, sums, sums_.data()});
   exec::parallel_for(exec_, "coupling::forces", grains.slots(),
                      ForcesOnGrains{grains.records(), grains.ids(), grains.groups(), record_.data(), sums_.data(),
                                     real_diameter_.empty() ? nullptr : real_diameter_.data(), law_.drag,
@@ -130,9 +147,9 @@ void GrainFluidCoupling<Exec>::gather_forces(dem::GrainSystem<Exec>& grains, sph
                                     fluid_acceleration_.data(), other_force_.data()});
   const double c = fluid.parameters().sound_speed;
   exec::pair_pass(exec_, "coupling::mixture", nodes,
-                  MixtureAtNodes{{spline, node_grain_.view(), nodes_.records(), record_.data()}, rho_g, sums});
+                  MixtureAtNodes{grains_at_nodes(), rho_g, sums});
   exec::pair_pass(exec_, "coupling::mixture", fluid.set().clusters(),
-                  MixturePressure{{spline, fluid_node_.view(), fluid.records(), nodes_.records()}, rho_g,
+                  MixturePressure{nodes_at_water(fluid), rho_g,
                                   static_cast<float>(1.0 / (law_.fluid_density * c * c)), sums, water_.data(), fluid.porosity(),
                                   fluid.parameters().paper_form ? fluid.densities() : nullptr, fluid.mixture_records()});
   grains.set_fluid({drag_coefficient_.data(), fluid_mass_.data(), added_mass_.data(), other_force_.data(),
@@ -147,11 +164,10 @@ void GrainFluidCoupling<Exec>::react(const dem::GrainSystem<Exec>& grains, sph::
                                   added_mass_.data(), grains.drag_impulse(), sums_.data(), 1.0f / dt,
                                   static_cast<float>(grains.kicked()) / dt, record_.data()});
   const Vec3f rho_g = static_cast<Vec3f>(law_.gravity * law_.fluid_density);
-  const AveragingSpline spline = lattice_.spline();
   exec::pair_pass(exec_, "coupling::reaction", nodes_.clusters(),
-                  ReactionAtNodes{{spline, node_grain_.view(), nodes_.records(), record_.data()}, rho_g, node_sums_.data()});
+                  ReactionAtNodes{grains_at_nodes(), rho_g, node_sums_.data()});
   exec::pair_pass(exec_, "coupling::reaction", fluid.set().clusters(),
-                  ReactionOnFluid{{spline, fluid_node_.view(), fluid.records(), nodes_.records()}, rho_g,
+                  ReactionOnFluid{nodes_at_water(fluid), rho_g,
                                   static_cast<float>(1.0 / law_.fluid_density) / lattice_volume(), node_sums_.data(),
                                   water_.data(), fluid.mass_share(), reaction_.data()});
   exec::parallel_for(exec_, "coupling::unpack", fluid.slots(),

@@ -36,6 +36,8 @@ struct CouplingLaw {
   std::vector<float> real_diameter;    ///< m per grain group; 0: its own
 };
 
+struct NodePairs;   // coupling_passes.hpp
+
 /// Lowest porosity the laws are given (random loose packings lie near 0.4; closer is outside Ergun's data).
 inline constexpr float porosity_floor = 0.3f;
 /// Lowest porosity that the water sees (discs can be packed to 0.1).
@@ -71,7 +73,7 @@ class GrainFluidCoupling {
   /// The members that a checkpoint keeps (exec/state_archive.hpp).
   template <class Archive>
   void archive(Archive& a) {
-    a(nodes_, node_grain_, node_fluid_, node_wall_, grain_node_, fluid_node_, node_sums_, fluid_slots_, grain_slots_, record_, sums_, water_,
+    a(nodes_, node_grain_, node_fluid_, node_wall_, grain_node_, fluid_node_, node_sums_, grain_slots_, record_, sums_, water_,
       velocity_before_, porosity_, drag_coefficient_, fluid_mass_, added_mass_, fluid_velocity_, fluid_acceleration_, other_force_,
       reaction_);
   }
@@ -81,6 +83,12 @@ class GrainFluidCoupling {
   void find_porosity(sph::FluidSystem<Exec>& fluid, Start start);
   float lattice_volume() const;                              ///< m3, or m2 in two dimensions
   void pack_water(const sph::FluidSystem<Exec>& fluid);
+  // Pairs of the passes: what nodes add up, and who reads them.
+  NodePairs grains_at_nodes() const;
+  NodePairs water_at_nodes(const sph::FluidSystem<Exec>& fluid) const;
+  NodePairs walls_at_nodes(const sph::FluidSystem<Exec>& fluid) const;
+  NodePairs nodes_at_grains() const;
+  NodePairs nodes_at_water(const sph::FluidSystem<Exec>& fluid) const;
 
   Exec exec_;
   Domain domain_;
@@ -88,7 +96,7 @@ class GrainFluidCoupling {
   NodeLattice lattice_;
   AveragingNodes<Exec> nodes_;
   ClusterList<Exec> node_grain_, node_fluid_, node_wall_, grain_node_, fluid_node_;
-  Index fluid_slots_ = 0, grain_slots_ = 0;
+  Index grain_slots_ = 0;
   Array<float, Exec> node_sums_;         ///< rows of coupling_passes.hpp, per cluster of nodes
   Array<float, Exec> real_diameter_;
   Array<float, Exec> record_;            ///< x y z V w/N | D/N (3) and offset (coupling.buoyancy), 4 each, per cluster

@@ -84,14 +84,14 @@ TEST(AveragingNodes, are_all_that_are_in_reach_of_both) {
     exec::Array<float, OpenMP> room(exec);
     set = ClusterSet<OpenMP>(exec, domain, 2.0 * dp);
     set.build(position, id, static_cast<Index>(places.size()), room);
-    return PlacesOfSet{set.view(), position.data(), id.data(), static_cast<Index>(places.size())};
+    return PlacesOfSet{position.data(), id.data(), static_cast<Index>(places.size())};
   };
   ClusterSet<OpenMP> grain_set, water_set;
   exec::Array<FixedPosition, OpenMP> grain_position(exec), water_position(exec);
   exec::Array<std::uint32_t, OpenMP> grain_id(exec), water_id(exec);
   AveragingNodes<OpenMP> nodes(exec, lattice);
   const PlacesOfSet of_grains = make_set(grains, grain_set, grain_position, grain_id);
-  nodes.build(of_grains, make_set(water, water_set, water_position, water_id), 0.0);
+  nodes.build(grain_set.view(), of_grains, make_set(water, water_set, water_position, water_id), 0.0);
 
   std::set<std::array<int, 3>> chosen;
   for (Index s = 0; s < nodes.set().slots(); ++s) {
