@@ -96,6 +96,7 @@ std::vector<FramePaths> list_frames(const std::string& run_folder) {
   if (frames.empty() && !fs::exists(folder / "frames", ignored) && !fs::exists(folder / "case.link", ignored))
     throw Error(ErrorKind::input, run_folder + ": is no run folder (it has no case.link and no frames)");
   std::vector<FramePaths> out;
+  out.reserve(frames.size());
   for (const auto& entry : frames) out.push_back(entry.second);
   std::stable_sort(out.begin(), out.end(), [](const FramePaths& a, const FramePaths& b) { return a.time < b.time; });
   return out;

@@ -75,7 +75,7 @@ vtkSmartPointer<vtkPointSet> read_file(const std::string& path) {
   reader->SetFileName(path.c_str());
   read_all_arrays(*reader);
   reader->Update();
-  const vtkSmartPointer<vtkPointSet> data = vtkPointSet::SafeDownCast(reader->GetOutput());
+  vtkSmartPointer<vtkPointSet> data = vtkPointSet::SafeDownCast(reader->GetOutput());
   if (reader->GetErrorCode() != 0 || !catcher->messages.empty())
     throw Error(ErrorKind::input, path + ": VTK cannot read it: " + told(catcher->messages));
   if (!data) throw Error(ErrorKind::input, path + ": holds no point set (expected polydata or an unstructured grid)");

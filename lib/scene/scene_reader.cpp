@@ -216,14 +216,14 @@ class Reader : public SceneVisitor {
   }
 
   static std::string choice_of(const toml::node& node, const std::string& key, const std::vector<std::string>& valid) {
-    const std::string found = string_of(node, key, "one of: " + join(valid));
+    std::string found = string_of(node, key, "one of: " + join(valid));
     for (const std::string& one : valid) if (one == found) return found;
     const std::string near = did_you_mean(found, valid);
     wrong_value(node, key, "one of: " + join(valid) + (near.empty() ? "" : "; did you mean \"" + near + "\"?"));
   }
 
   std::string path_of(const toml::node& node, const std::string& key) const {
-    const std::string found = string_of(node, key, "a path in quotes");
+    std::string found = string_of(node, key, "a path in quotes");
     if (found.empty()) return found;
     if (found.find('\0') != std::string::npos) wrong_value(node, key, "a path without NUL characters");
     const fs::path whole = fs::absolute(folder_ / found).lexically_normal();

@@ -46,11 +46,13 @@ std::string text_of(const Point2& p) { return "[" + toml_number(p.x) + ", " + to
 std::string text_of(const Box& b) { return "{lower = " + text_of(b.lower) + ", upper = " + text_of(b.upper) + "}"; }
 std::string text_of(const std::vector<std::string>& words) {
   std::vector<std::string> quoted;
+  quoted.reserve(words.size());
   for (const std::string& word : words) quoted.push_back(toml_string(word));
   return "[" + join(quoted) + "]";
 }
 std::string text_of(const std::vector<Point2>& points) {
   std::vector<std::string> texts;
+  texts.reserve(points.size());
   for (const Point2& point : points) texts.push_back(text_of(point));
   return "[" + join(texts) + "]";
 }

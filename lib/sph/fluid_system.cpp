@@ -43,6 +43,7 @@ struct KeepFilling {
   GDESP_HD void operator()(Index s) const {
     filling[2 * static_cast<std::int64_t>(s)] = density[s];
     const float* q = count + 8 * static_cast<std::int64_t>(s / exec::cluster_size) + s % exec::cluster_size;
+    // NOLINTNEXTLINE(clang-analyzer-core.NullDereference): null only where there is no slot
     filling[2 * static_cast<std::int64_t>(s) + 1] = share_of(q[0] / real::max(1.0f - q[4], 0.1f));   // of the room that walls leave
   }
 };

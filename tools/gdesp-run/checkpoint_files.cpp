@@ -166,7 +166,7 @@ Checkpoint CheckpointFiles::write(Simulation& simulation, const Guard& guard, co
   if (trouble) throw Error(ErrorKind::resource, folder_ + ": cannot be made: " + trouble.message());
   char name[48];
   std::snprintf(name, sizeof name, "/step_%012lld.state", static_cast<long long>(simulation.step_count()));
-  const Checkpoint checkpoint{folder_ + name, simulation.step_count(), simulation.time(), wall_seconds, {}, {}};
+  Checkpoint checkpoint{folder_ + name, simulation.step_count(), simulation.time(), wall_seconds, {}, {}};
   Header header{{}, fingerprint_, checkpoint.step, checkpoint.time, wall_seconds};
   std::memcpy(header.mark, file_mark, sizeof file_mark);
   SafeFile file(checkpoint.path);

@@ -16,7 +16,7 @@ int run(const std::vector<std::string>& arguments) {
   gdesp::cli::install_signal_handlers();
   gdesp::tool::resolve_paths(*options);
   if (gdesp::cli::interrupted()) return 130;
-  if (options->accuracy > 0.0 || options->budget > 0.0) return gdesp::tool::run_to_target(std::move(*options));
+  if (options->accuracy > 0.0 || options->budget > 0.0) return gdesp::tool::run_to_target(*options);
   if (options->explain) return gdesp::tool::explain(std::move(*options));
   return gdesp::tool::run_case(std::move(*options));
 }

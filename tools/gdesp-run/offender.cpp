@@ -53,7 +53,7 @@ std::optional<Offender> fastest(const Table& table, bool is_grain) {
 }
 
 std::optional<Offender> fastest_of_all(Simulation& simulation) {
-  const auto water = fastest(simulation.fluid(), false), grain = fastest(simulation.grains(), true);
+  auto water = fastest(simulation.fluid(), false), grain = fastest(simulation.grains(), true);
   if (!water || !grain) return water ? water : grain;
   if (!water->has_place) return water;
   if (!grain->has_place) return grain;

@@ -208,7 +208,7 @@ class Run {
   std::optional<Trouble> note() {
     const exec::ProfileScope scope("guard::diagnostics");
     latest_ = simulation().diagnostics();
-    const auto trouble = guard_.look(latest_, [](const std::string& text) { cli::warning(text); });
+    auto trouble = guard_.look(latest_, [](const std::string& text) { cli::warning(text); });
     if (!trouble) log_.add(latest_);
     return trouble;
   }
@@ -353,7 +353,7 @@ class Run {
 };
 
 std::optional<Checkpoint> resume(Session& session) {
-  const auto checkpoint = CheckpointFiles(session.options.run_folder, session.fingerprint).load_newest(*session.simulation);
+  auto checkpoint = CheckpointFiles(session.options.run_folder, session.fingerprint).load_newest(*session.simulation);
   if (checkpoint) cli::info("goes on at t = " + number_text(checkpoint->time) + " s, step " + std::to_string(checkpoint->step));
   else cli::info("no checkpoint yet: starts from the beginning");
   return checkpoint;

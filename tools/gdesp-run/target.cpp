@@ -190,7 +190,7 @@ void tell_reached(const RunOptions& o, const Targets& targets, std::vector<Pilot
 
 }  // namespace
 
-int run_to_target(RunOptions o) {
+int run_to_target(const RunOptions& o) {
   const Targets targets{o.accuracy, o.budget};
   const Scene scene = read_scene(o.case_path, o.overrides);
   const std::string folder = o.run_folder + ".pilots";

@@ -38,6 +38,6 @@ struct Choice { double dp = 0.0, seconds = 0.0, error = 0.0; bool accuracy_met =
 Choice choose_dp(const std::vector<Pilot>& pilots, const Targets& targets, int dimensions);
 
 /// Pilots, choice, case and run of options.case_path, a scene. Returns the exit code.
-int run_to_target(RunOptions options);
+int run_to_target(const RunOptions& options);
 
 }  // namespace gdesp::tool

@@ -14,6 +14,11 @@ gdesp_run, make_case = (os.path.abspath(p) for p in sys.argv[1:3])
 environment = dict(os.environ, GOMP_SPINCOUNT="1000")
 
 
+def has_address_sanitizer():
+    """Of gdesp-run: it bears no limit on its address space or data."""
+    return b"libasan" in subprocess.run(["ldd", gdesp_run], capture_output=True).stdout
+
+
 class RunCase(unittest.TestCase):
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="gdesp-run-"))
