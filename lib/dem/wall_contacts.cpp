@@ -132,7 +132,7 @@ struct CountRows {
 
   GDESP_HD Index count(Index i) const {
     const GrainRecord& own = search.records[i];
-    if (!(own.radius > 0.0f && own.mobility > 0.0f) || static_cast<double>(quiet_until[i]) > odometer) return 0;
+    if (!(own.radius > 0.0f && own.mobility > 0.0f) || static_cast<double>(quiet_until[i]) > odometer + search.skin) return 0;
     Index found = 0;
     search(i, search.list_reach(i), [&](Index, const Vec3d&, double) { ++found; });
     if (found > 0) return found;
@@ -140,7 +140,7 @@ struct CountRows {
     search(i, search.list_reach(i) + look_ahead, [&](Index, const Vec3d&, double distance2) {
       nearest2 = distance2 < nearest2 ? distance2 : nearest2;
     });
-    quiet_until[i] = static_cast<float>(odometer + 0.999 * (::sqrt(nearest2) - search.list_reach(i)));
+    quiet_until[i] = static_cast<float>(odometer + 0.999 * (::sqrt(nearest2) - own.radius));
     return 0;
   }
   GDESP_HD void operator()(Index i) const {

@@ -23,7 +23,7 @@ struct WallMotion {
 };
 
 /// How far to look for walls. The odometer is the way that no grain and body together have exceeded since the start;
-/// quiet_until (by slot) is its reading up to which a grain is known to be far from walls.
+/// quiet_until (by slot) is its reading before which a grain touches no wall.
 struct WallReach {
   float skin = 0.0f;             ///< m
   double odometer = 0.0;         ///< m

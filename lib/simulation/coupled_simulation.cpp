@@ -84,7 +84,8 @@ void CoupledSimulation<Exec>::make_room_for(double dt) {
     ++rebuilds_;
   }
   largest_move_ = move;
-  if (coupling_) refresh_coupling(move + 1.2 * grain_speed_ * dt, stale);
+  // Both against nodes at rest.
+  if (coupling_) refresh_coupling(std::max(move, 1.2 * grain_speed_ * dt), stale);
 }
 
 template <class Exec>

@@ -230,6 +230,27 @@ TEST_F(WallTest, LargeTrianglesKeepTheirPlace) {
   }
 }
 
+// A skin that grows while grains fall ever faster must not hide the floor from those that were far from it.
+TEST_F(WallTest, NoContactIsMissedWhateverTheSkin) {
+  const auto fall = [](double skin) {
+    GrainTable table;
+    Random random(3);
+    for (int i = 0; i < 100; ++i) {
+      add_grain(table, {0.1 + 0.08 * (i / 10), 0.1 + 0.08 * (i % 10), 0.062 + 0.03 * random()}, 0.02, 2500);
+    }
+    ContactParameters contact = hard(0.7, 0.3);
+    contact.skin = skin;
+    Grains grains({}, metre(), table, contact, floor_mesh(0, 1, 0, 1, 0.05, 0.04), {0, 0, -10000.0});
+    for (int k = 0; k < 4; ++k) grains.advance(1.0e-3, 50);
+    return grains.table();
+  };
+  const GrainTable any = fall(0.0), wide = fall(0.5);
+  for (std::size_t i = 0; i < 100; ++i) {
+    EXPECT_LT(norm(any.position[i] - wide.position[i]), 1.0e-6) << i;
+    EXPECT_GT(any.position[i].z, 0.05) << i;
+  }
+}
+
 TEST_F(WallTest, ManyGrainsStayInTheTank) {
   GrainTable table;
   Random random(9);
