@@ -26,6 +26,9 @@ struct RollingMotion {
   R half_after;       ///< s
 };
 
+/// Share of I_r/dt (dem.damping.limit).
+inline constexpr float most_rolling_damping = 0.02f;
+
 /// The torque on i, N m; `history` (N m) goes from half a step before to half a step after now.
 template <class R>
 GDESP_HD inline Vec3<R> rolling_torque(float friction, const R& normal_stiffness, const RollingMotion<R>& m,
@@ -35,7 +38,8 @@ GDESP_HD inline Vec3<R> rolling_torque(float friction, const R& normal_stiffness
   using real::sqrt;
   const R reach = R(friction) * m.radius;
   const R stiffness = R(2.25f) * normal_stiffness * reach * reach;
-  const R damping = R(0.6f) * sqrt(m.inertia * stiffness);
+  const R most = m.inertia * (R(most_rolling_damping) / (m.half_before + m.half_after));   // dem.damping.limit
+  const R damping = min(R(0.6f) * sqrt(m.inertia * stiffness), most);
   const R spin = dot(m.w, m.n);
   const Vec3<R> w{m.w.x - spin * m.n.x, m.w.y - spin * m.n.y, m.w.z - spin * m.n.z};
   const R along = dot(history, m.n);

@@ -136,6 +136,25 @@ TEST(RollingResistance, SpringThenConstantTorque) {
   EXPECT_NEAR(t.y, -0.1f * hand_radius * 0.6f, 1e-8f);
 }
 
+// @eq dem.damping.limit
+TEST(ContactForce, DampingTakesALimitedShareOfTheVelocityInAStep) {
+  const ContactLaws<HertzMindlin> laws{hand_law(0.5), 100.0f};
+  const auto damping = [&](float step) {   // N s/m: normal, tangential
+    const HalfSteps half{0.5f * step, 0.5f * step};
+    const auto force_at = [&](float v_t, float v_n) {
+      Vec3f history{};
+      return contact_force(laws, ContactGeometry<float>{{0, 0, 1}, hand_overlap, hand_radius, hand_mass, {v_t, 0, v_n}}, half, history).force;
+    };
+    const float spring = laws.law(hand_overlap, hand_radius, hand_mass).tangential_stiffness * half.before;
+    return Vec3f{-force_at(0.001f, 0.0f).x / 0.001f - spring, 0.0f, (force_at(0.0f, -0.01f).z - force_at(0.0f, 0.0f).z) / 0.01f};
+  };
+  const auto c = laws.law(hand_overlap, hand_radius, hand_mass);
+  EXPECT_NEAR(damping(1.0e-5f).x, c.tangential_damping, 2e-3f * c.tangential_damping);
+  EXPECT_NEAR(damping(1.0e-5f).z, c.normal_damping, 2e-3f * c.normal_damping);
+  EXPECT_NEAR(damping(1.0e-3f).x, 0.06f * hand_mass / 1.0e-3f, 2e-3f);
+  EXPECT_NEAR(damping(1.0e-3f).z, 0.2f * hand_mass / 1.0e-3f, 2e-3f);
+}
+
 // Both copies of a contact must agree to the last bit, in every lane and with fused multiply-add.
 TEST(ContactForce, ExchangingGrainsChangesOnlySigns) {
   const ContactLaws<HertzMindlin> laws{hand_law(0.3), 0.4f, 0.1f, 0.01f};
