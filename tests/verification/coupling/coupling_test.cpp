@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
-#include <utility>
+#include <tuple>
 
 #include "support/tank.hpp"
 
@@ -102,8 +102,8 @@ double energy(const Diagnostics& d) {
   return d.fluid_kinetic + d.fluid_potential + d.fluid_elastic + d.grain_kinetic + d.grain_potential + d.grain_elastic;
 }
 
-// A block of discs with a third of pores strikes water at 2 m/s, in the plane.
-SimulationInput block_into_water() {
+// A block of discs with a third of pores strikes water at 2 m/s, in the plane; `shift`: m, of the block along the water.
+SimulationInput block_into_water(double shift = 0.0) {
   const double dp = 0.01;
   SimulationInput input = test::tank_input({0.4, 0.0, 0.4}, 0.1, dp, 2);
   input.fluid_parameters.h = 1.5 * dp;
@@ -112,7 +112,7 @@ SimulationInput block_into_water() {
   test::fill_block(input.fluid, {0, 0, 0}, {0.4, 0, 0.1}, dp, true);
   for (int x = 0; x < 18; ++x)
     for (int z = 0; z < 9; ++z) {
-      input.grains.position.push_back({0.15 + 0.0055 * (x + 0.5), 0.0, 0.105 + 0.0055 * (z + 0.5)});
+      input.grains.position.push_back({0.15 + shift + 0.0055 * (x + 0.5), 0.0, 0.105 + 0.0055 * (z + 0.5)});
       input.grains.velocity.push_back({0.0f, 0.0f, -2.0f});
       input.grains.diameter.push_back(0.005f);
       input.grains.density.push_back(2650.0f);
@@ -121,27 +121,40 @@ SimulationInput block_into_water() {
   return input;
 }
 
-// What the squeezed water gains, the grains pay. Of the kinetic energy 0 to 0.02 % is made at an averaging length of 2 h, half
-// of the default, and 0.4 % at h, where the nodes stand as close as the particles and the lattice shows through (before nodes,
-// with a sum over pairs: 0.11 %). With a buoyancy interpolated from the water's acceleration, or porosity and forces that do
-// not belong together, it was 6 to 30 %, and water at two and three times the block's speed.
+struct Splash {
+  double energy_made, largest_speed;   // share of the kinetic energy at the start; m/s
+};
+Splash splash(double length_over_h, double shift) {
+  SimulationInput input = block_into_water(shift);
+  input.coupling.smoothing_length = length_over_h * input.fluid_parameters.h;
+  auto simulation = make_simulation(input, "cpu");
+  const double kinetic = simulation->diagnostics().grain_kinetic;
+  double lowest = energy(simulation->diagnostics()), rise = 0.0, speed = 0.0;
+  while (simulation->time() < 0.15) {
+    simulation->step(0.15);
+    const Diagnostics now = simulation->diagnostics();
+    rise = std::max(rise, energy(now) - lowest);
+    lowest = std::min(lowest, energy(now));
+    speed = std::max(speed, now.largest_speed);
+  }
+  return {rise / kinetic, speed};
+}
+
+// What the squeezed water gains, the grains pay. Of the kinetic energy 0.02 % is made at an averaging length of 2 h, half of the
+// default. At h the nodes stand as close as the particles, the lattice shows through, and chance decides: 0.1 to 1.3 % (any
+// change of the last digit moves it), 0.2 % in the mean of ten starts; hence the mean of six is asked. With a buoyancy
+// interpolated from the water's acceleration, or porosity and forces that do not belong together, it was 6 to 30 %, and water at
+// two and three times the block's speed.
 TEST(Coupling, a_dense_block_into_water_makes_no_energy_and_no_spray) {
-  for (const auto& [length_over_h, share] : {std::pair{2.0, 5e-4}, std::pair{1.0, 6e-3}}) {
-    SimulationInput input = block_into_water();
-    input.coupling.smoothing_length = length_over_h * input.fluid_parameters.h;
-    auto simulation = make_simulation(input, "cpu");
-    const double kinetic = simulation->diagnostics().grain_kinetic;
-    double lowest = energy(simulation->diagnostics()), rise = 0.0, speed = 0.0;
-    while (simulation->time() < 0.15) {
-      simulation->step(0.15);
-      const Diagnostics now = simulation->diagnostics();
-      rise = std::max(rise, energy(now) - lowest);
-      lowest = std::min(lowest, energy(now));
-      speed = std::max(speed, now.largest_speed);
+  for (const auto& [length_over_h, starts, share] : {std::tuple{2.0, 1, 5e-4}, std::tuple{1.0, 6, 6e-3}}) {
+    double made = 0.0;
+    for (int k = 0; k < starts; ++k) {
+      const Splash s = splash(length_over_h, 0.00137 * k);
+      made += s.energy_made / starts;
+      EXPECT_LT(s.largest_speed, 4.0) << length_over_h;
+      EXPECT_GT(s.largest_speed, 1.0) << length_over_h;
     }
-    EXPECT_LT(rise, share * kinetic) << length_over_h;
-    EXPECT_LT(speed, 4.0) << length_over_h;
-    EXPECT_GT(speed, 1.0) << length_over_h;
+    EXPECT_LT(made, share) << length_over_h;
   }
 }
 
