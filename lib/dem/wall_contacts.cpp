@@ -258,12 +258,13 @@ struct SetLast {
 template <class Exec>
 WallContacts<Exec>::WallContacts(const Exec& exec, const Domain& domain, const WallMesh& mesh, double impulse_unit)
     : exec_(exec), domain_(domain), host_bodies_(mesh.body), impulse_unit_(impulse_unit), frame_(exec), corners_(exec),
-      edge_(exec), vertex_(exec), ring_of_(exec), ring_(exec), node_(exec), body_(exec), listed_(exec), pose_(exec),
+      edge_(exec), vertex_(exec), smooth_(exec), ring_of_(exec), ring_(exec), node_(exec), body_(exec), listed_(exec), pose_(exec),
       slot_(exec), row_begin_(exec), rows_(exec), gaps_(exec), history_(exec), force_(exec), impulse_(exec) {
   frame_.assign(mesh.frame);
   corners_.assign(mesh.corners);
   edge_.assign(mesh.edge);
   vertex_.assign(mesh.vertex);
+  smooth_.assign(mesh.smooth);
   ring_of_.assign(mesh.ring_of);
   ring_.assign(mesh.ring);
   node_.assign(mesh.node);
@@ -279,7 +280,7 @@ double WallContacts<Exec>::body_reach(int body, const Vec3d& centre) const {
 
 template <class Exec>
 WallMeshView WallContacts<Exec>::mesh_view() const {
-  return {frame_.data(), corners_.data(), edge_.data(), vertex_.data(), ring_of_.data(),
+  return {frame_.data(), corners_.data(), edge_.data(), vertex_.data(), smooth_.data(), ring_of_.data(),
           ring_.data(),  node_.data(),    body_.data(), static_cast<Index>(host_bodies_.size())};
 }
 

@@ -75,6 +75,7 @@ class WallContacts {
   Array<TriangleCorners, Exec> corners_;
   Array<EdgeSide, Exec> edge_;
   Array<Vec3<std::int32_t>, Exec> vertex_;
+  Array<std::int32_t, Exec> smooth_;
   Array<VertexRing, Exec> ring_of_;
   Array<Vec3f, Exec> ring_;
   Array<WallNode, Exec> node_;

@@ -61,7 +61,7 @@ class Welder {
 struct Surface {
   std::vector<Vec3d> point;
   std::vector<Triangle> triangle;
-  std::vector<std::int32_t> body;
+  std::vector<std::int32_t> body, smooth;
 };
 
 void check_indices(const TriangleTable& table) {
@@ -96,6 +96,7 @@ Surface weld_surface(const TriangleTable& table, double weld) {
     if (welded.x == welded.y || welded.y == welded.z || welded.z == welded.x || norm(area) <= weld * weld) continue;
     surface.triangle.push_back(welded);
     surface.body.push_back(body);
+    surface.smooth.push_back(table.smooth.empty() ? 0 : table.smooth[t]);
   }
   surface.point = std::move(welder.points);
   return surface;
@@ -121,6 +122,7 @@ struct Builder {
       mesh.corners.push_back({corner(t, 0), corner(t, 1), corner(t, 2)});
     }
     mesh.vertex = surface.triangle;
+    mesh.smooth = surface.smooth;
   }
 
   // Half edges sorted by their vertices; two of opposite direction are one inner edge.
@@ -263,6 +265,7 @@ void build_trees(Surface& surface, WallMesh& mesh) {
   for (Index t : tree.order) {
     sorted.triangle.push_back(surface.triangle[static_cast<std::size_t>(t)]);
     sorted.body.push_back(surface.body[static_cast<std::size_t>(t)]);
+    sorted.smooth.push_back(surface.smooth[static_cast<std::size_t>(t)]);
   }
   surface = std::move(sorted);
 }

@@ -63,6 +63,7 @@ struct WallMesh {
   std::vector<TriangleCorners> corners;
   std::vector<EdgeSide> edge;                      ///< 3 a triangle
   std::vector<Vec3<std::int32_t>> vertex;          ///< of a triangle
+  std::vector<std::int32_t> smooth;                ///< 1: the triangle has no friction
   std::vector<VertexRing> ring_of;                 ///< of a vertex
   std::vector<Vec3f> ring;
   std::vector<WallNode> node;

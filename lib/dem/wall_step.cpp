@@ -20,6 +20,7 @@ struct Touch {
   float overlap;       // m
   Vec3f centre_arm;    // m, grain centre - body centre, world
   std::int32_t body;
+  bool smooth;
 };
 
 template <class Law>
@@ -172,6 +173,7 @@ struct WallStep {
     if (distance <= 0.0f && !came_from_front(history, body, touch.n)) return false;
     touch.overlap = radius - distance;
     touch.body = body;
+    touch.smooth = v.mesh.smooth[row.triangle[lane]] != 0;
     if (body != 0) {
       const Vec3f lever{row.lever_x[lane], row.lever_y[lane], row.lever_z[lane]};
       touch.centre_arm = to_world(pose, lever + apply(pose.to_body, displaced - pose.shift) + apply(pose.turned, lever));
@@ -229,13 +231,15 @@ struct WallStep {
     g.mass = own.mass;
     g.velocity = Vec3f{own.vx, own.vy, own.vz} - arm * cross(surface, touch.n);
     if (touch.body != 0) g.velocity -= pose.velocity + cross(pose.spin, point);
-    const ContactForce<float> c = contact_force(laws, g, v.half, memory.tangential);
+    ContactLaws<Law> felt = laws;
+    if (touch.smooth) felt.friction = felt.rolling_friction = 0.0f;
+    const ContactForce<float> c = contact_force(felt, g, v.half, memory.tangential);
     Vec3f rolling{};
-    if (laws.rolling_friction > 0.0f) {
+    if (felt.rolling_friction > 0.0f) {
       const float inertia = (1.0f + v.inertia_factor) * own.mass * own.radius * own.radius;
       const RollingMotion<float> motion{touch.n,        surface - pose.spin, own.radius,   inertia,
                                         c.normal_force, v.half.before,       v.half.after};
-      rolling = rolling_torque(laws.rolling_friction, c.normal_stiffness, motion, memory.rolling);
+      rolling = rolling_torque(felt.rolling_friction, c.normal_stiffness, motion, memory.rolling);
     }
     sum.force += share * c.force;
     sum.torque += share * (arm * cross(c.force, touch.n) + rolling);

@@ -49,6 +49,7 @@ TriangleTable make_wall_strips(const TriangleTable& table, double weld, double h
     strips.triangle.push_back({base, base + 1, base + 2});
     strips.triangle.push_back({base, base + 2, base + 3});
     strips.body.insert(strips.body.end(), 2, body);
+    if (!table.smooth.empty()) strips.smooth.insert(strips.smooth.end(), 2, table.smooth[t]);
   }
   return strips;
 }

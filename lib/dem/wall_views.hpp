@@ -57,6 +57,7 @@ struct WallMeshView {
   const TriangleCorners* corners;
   const EdgeSide* edge;
   const Vec3<std::int32_t>* vertex;
+  const std::int32_t* smooth;
   const VertexRing* ring_of;
   const Vec3f* ring;
   const WallNode* node;

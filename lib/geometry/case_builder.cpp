@@ -11,6 +11,7 @@
 #include "geometry/fitted_layers.hpp"
 #include "geometry/misplaced.hpp"
 #include "geometry/slide_builder.hpp"
+#include "geometry/symmetry_planes.hpp"
 #include "geometry/thin_walls.hpp"
 #include "geometry/water_reach.hpp"
 #include "geometry/water_relaxation.hpp"
@@ -323,6 +324,7 @@ Case build_case(const Scene& scene, BuildReport& report, const BuildOptions& opt
   add_walls(layout, out);
   stages.begin("placing bodies and slides");
   add_bodies_and_slides(layout, out, report, options);
+  mark_symmetry_planes(layout.parts, 1.0e-4 * scene.dp, out.walls);
   const std::vector<double> top = column_tops(space, out.fluid.position);
   const bool moves = everywhere && first < last;
   if (moves) relax_water(out.fluid.position, out.boundary, first, last, space, scene.numerics.smoothing_ratio * scene.dp);

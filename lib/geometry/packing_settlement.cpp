@@ -60,7 +60,7 @@ SettledBed settle_packing(const PackingRequest& r, double density, const GrainSe
   grains.diameter = packing.diameter;
   grains.density.assign(given, static_cast<float>(density));
   const TriangleMesh walls = bounding_walls(r);
-  out.settlement = settler(grains, {walls.vertex, walls.triangle, std::vector<std::int32_t>(walls.triangle.size(), 0)});
+  out.settlement = settler(grains, {walls.vertex, walls.triangle, std::vector<std::int32_t>(walls.triangle.size(), 0), {}});
   const std::vector<bool> inside = r.contains(grains.position);
   packing.position.clear();
   packing.diameter.clear();

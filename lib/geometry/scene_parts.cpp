@@ -46,6 +46,7 @@ WallPart wall_of(const Wall& wall, const Scene& scene, Notes& notes) {
     part.kind = WallPart::Kind::tank;
     part.tank = widened(*wall.tank, scene);
     part.open = wall.open;
+    part.symmetry = wall.symmetry;
     if (scene.dimensions == 2) part.open.insert(part.open.end(), {"y-", "y+"});
     return part;
   }

@@ -30,7 +30,7 @@ struct WallPart {
   std::string name;
   enum class Kind { tank, solid, sheet } kind = Kind::solid;
   Box tank;
-  std::vector<std::string> open;
+  std::vector<std::string> open, symmetry;
   TriangleMesh mesh;
   bool no_slip = false;
 };

@@ -117,6 +117,7 @@ void send(const SharedFile& file, const MemoryPoints& points) {
   }
   put_all(file, points.surface.triangle);
   put_all(file, points.surface.body);
+  put_all(file, points.surface.smooth);
 }
 
 bool sound(const MemoryPoints& points) {
@@ -127,7 +128,8 @@ bool sound(const MemoryPoints& points) {
   const auto count = std::int64_t(points.position.size());
   for (const Vec3<std::int32_t>& t : points.surface.triangle)
     for (const std::int32_t v : {t.x, t.y, t.z}) if (v < 0 || v >= count) return false;
-  return points.surface.body.size() == points.surface.triangle.size();
+  const std::size_t smooth = points.surface.smooth.size();
+  return points.surface.body.size() == points.surface.triangle.size() && (smooth == 0 || smooth == points.surface.triangle.size());
 }
 
 bool receive(SharedFile& file, MemoryPoints& points) {
@@ -146,7 +148,8 @@ bool receive(SharedFile& file, MemoryPoints& points) {
     if (!get_all(file, field.name) || !get_all(file, field.values)) return false;
     points.fields.push_back(std::move(field));
   }
-  return get_all(file, points.surface.triangle) && get_all(file, points.surface.body) && sound(points);
+  return get_all(file, points.surface.triangle) && get_all(file, points.surface.body) &&
+         get_all(file, points.surface.smooth) && sound(points);
 }
 
 std::size_t address_space_in_use() {

@@ -25,7 +25,7 @@ class PointSource {
   virtual void read(const std::string& name, std::int64_t* values) const = 0;
   /// A field (not one value a point); empty when there is none of that name.
   virtual std::vector<double> field(const std::string& name) const = 0;
-  /// Polygons as triangles, with the cell column "body" when there is one.
+  /// Polygons as triangles, with the cell columns "body" and "smooth" when they are there.
   virtual TriangleTable triangles() const = 0;
 };
 

@@ -107,6 +107,7 @@ void write_triangles(const std::string& path, const TriangleTable& t, std::vecto
   content.triangles = &t.triangle;
   content.field = std::move(field);
   content.cells = {vtp_array("body", t.body)};
+  if (!t.smooth.empty()) content.cells.push_back(vtp_array("smooth", t.smooth));
   write_vtp(path, content);
 }
 

@@ -117,7 +117,7 @@ void take_fields(vtkPointSet& data, MemoryPoints& points) {
 }
 
 void take_triangles(const std::string& path, vtkPointSet& data, MemoryPoints& points) {
-  vtkDataArray* body = data.GetCellData()->GetArray("body");
+  vtkDataArray *body = data.GetCellData()->GetArray("body"), *smooth = data.GetCellData()->GetArray("smooth");
   const vtkNew<vtkIdList> corners;
   const auto vertex = [&](vtkIdType k) {
     const vtkIdType id = corners->GetId(k);
@@ -134,6 +134,7 @@ void take_triangles(const std::string& path, vtkPointSet& data, MemoryPoints& po
     for (vtkIdType k = 2; k < corners->GetNumberOfIds(); ++k) {
       points.surface.triangle.push_back({vertex(0), vertex(k - 1), vertex(k)});
       points.surface.body.push_back(body ? static_cast<std::int32_t>(body->GetComponent(i, 0)) : 0);
+      if (smooth) points.surface.smooth.push_back(static_cast<std::int32_t>(smooth->GetComponent(i, 0)));
     }
   }
 }

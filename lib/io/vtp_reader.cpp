@@ -53,16 +53,17 @@ class PlainVtp : public PointSource {
     if (!corners || !ends) text_.damaged("it holds no polygons though it says so");
     const std::vector<std::int64_t> corner = text_.read<std::int64_t>(*corners);
     const std::vector<std::int64_t> end = text_.read<std::int64_t>(*ends);
-    const VtpArrayText* body = text_.find("CellData", "body");
+    const VtpArrayText *body = text_.find("CellData", "body"), *smooth = text_.find("CellData", "smooth");
     const std::vector<std::int32_t> of = body ? text_.read<std::int32_t>(*body) : std::vector<std::int32_t>();
-    if (end.size() != text_.triangles || (body && of.size() != text_.triangles))
+    const std::vector<std::int32_t> slides = smooth ? text_.read<std::int32_t>(*smooth) : std::vector<std::int32_t>();
+    if (end.size() != text_.triangles || (body && of.size() != text_.triangles) || (smooth && slides.size() != text_.triangles))
       text_.damaged("it says " + std::to_string(text_.triangles) + " polygons and holds " + std::to_string(end.size()));
     std::int64_t start = 0;
     for (std::size_t i = 0; i < end.size(); ++i) {
       if (end[i] < start || end[i] > std::int64_t(corner.size())) text_.damaged("polygon offsets do not increase");
       for (std::int64_t k = start + 2; k < end[i]; ++k)
         add_triangle(table, corner[std::size_t(start)], corner[std::size_t(k - 1)], corner[std::size_t(k)],
-                     of.empty() ? 0 : of[i]);
+                     of.empty() ? 0 : of[i], slides.empty() ? nullptr : &slides[i]);
       start = end[i];
     }
     return table;
@@ -80,13 +81,15 @@ class PlainVtp : public PointSource {
     text_.read(a, text_.points * std::size_t(a.components), values);
   }
 
-  void add_triangle(TriangleTable& table, std::int64_t a, std::int64_t b, std::int64_t c, std::int32_t body) const {
+  void add_triangle(TriangleTable& table, std::int64_t a, std::int64_t b, std::int64_t c, std::int32_t body,
+                    const std::int32_t* smooth) const {
     const auto count = std::int64_t(table.vertex.size());
     for (const std::int64_t v : {a, b, c})
       if (v < 0 || v >= count)
         text_.damaged("a polygon names vertex " + std::to_string(v) + " of " + std::to_string(count));
     table.triangle.push_back({std::int32_t(a), std::int32_t(b), std::int32_t(c)});
     table.body.push_back(body);
+    if (smooth) table.smooth.push_back(*smooth);
   }
 
   VtpText text_;

@@ -51,6 +51,7 @@ struct TriangleTable {
   std::vector<Vec3d> vertex;                       ///< m
   std::vector<Vec3<std::int32_t>> triangle;        ///< vertex indices
   std::vector<std::int32_t> body;                  ///< per triangle: 0 at rest, k > 0 moves with bodies[k - 1]
+  std::vector<std::int32_t> smooth;                ///< per triangle: 1 has no friction, a plane of symmetry; empty: none is
 };
 
 /// Prescribed motion: displacement as a piecewise linear function of time, constant beyond its ends.

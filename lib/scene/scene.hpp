@@ -48,6 +48,7 @@ struct Wall {
   std::string name;
   std::optional<Box> tank;                ///< inner faces
   std::vector<std::string> open;          ///< tank faces left out: "top", "bottom", "x-", "x+", "y-", "y+"
+  std::vector<std::string> symmetry;      ///< tank faces that are planes of symmetry: without friction for grains too
   std::string mesh;                       ///< closed solid, or open sheet (made solid downwards)
   double mesh_size = 0.0, scale = 1.0;
   Vec3d translate;

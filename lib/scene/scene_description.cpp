@@ -8,6 +8,7 @@ namespace {
 using V = SceneVisitor;
 
 const std::vector<std::string> wall_conditions{"free-slip", "no-slip"};
+const std::vector<std::string> tank_face_names{"top", "bottom", "x-", "x+", "y-", "y+"};
 const std::vector<std::string> fixed_motions{"x", "y", "z", "rotation"};
 
 void describe_shape(V& v, Shape& s) {
@@ -67,7 +68,8 @@ void describe_terrain(V& v, Terrain& t) {
 void describe_wall(V& v, Wall& wall) {
   v.text({"name", "", "name in messages and results; default: wall1, wall2, ..."}, wall.name);
   v.box({"tank", "m", "inner faces of a tank"}, wall.tank);
-  v.choices({"open", "", "tank faces left out"}, wall.open, {"top", "bottom", "x-", "x+", "y-", "y+"});
+  v.choices({"open", "", "tank faces left out"}, wall.open, tank_face_names);
+  v.choices({"symmetry", "", "tank faces that are planes of symmetry: smooth for grains, free slip for the fluid"}, wall.symmetry, tank_face_names);
   v.path({"mesh", "", "file of a closed solid, or of an open sheet (made solid downwards)"}, wall.mesh);
   v.number({"mesh_size", "m", "element size when the mesh is a GEO or STEP file; 0: chosen from dp"}, wall.mesh_size,
            not_negative);

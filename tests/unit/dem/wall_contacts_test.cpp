@@ -230,6 +230,30 @@ TEST_F(WallTest, LargeTrianglesKeepTheirPlace) {
   }
 }
 
+// A plane of symmetry stops a grain and does not hold it back; the rough floor beside it does, and makes it roll.
+TEST_F(WallTest, SmoothTrianglesHaveNoFriction) {
+  TriangleTable floor = floor_mesh(0, 1, 0, 1, 0.1, 0.5);
+  floor.smooth.assign(floor.triangle.size(), 0);
+  for (std::size_t t = 0; t < floor.triangle.size(); ++t) {
+    const auto& c = floor.triangle[t];
+    const double x = (floor.vertex[c.x].x + floor.vertex[c.y].x + floor.vertex[c.z].x) / 3.0;
+    floor.smooth[t] = x < 0.5 ? 1 : 0;
+  }
+  ContactParameters contact = hard(0.5, 0.5);
+  contact.rolling_friction = 0.1;
+  GrainTable table = one({0.2, 0.3, 0.11}, {0.5, 0.2, 0.0});
+  add_grain(table, {0.7, 0.3, 0.11}, 0.02, 2500, {0.5, 0.2, 0.0});
+  Grains grains({}, metre(), table, contact, floor, {0, 0, -9.81});
+  grains.advance(0.1, 10000);
+  const GrainTable now = grains.table();
+  EXPECT_EQ(now.velocity[0].x, 0.5f);
+  EXPECT_EQ(now.velocity[0].y, 0.2f);
+  EXPECT_EQ(now.angular_velocity[0].y, 0.0f);
+  EXPECT_NEAR(now.position[0].z, 0.11, 1.0e-4);
+  EXPECT_LT(now.velocity[1].x, 0.4f);
+  EXPECT_GT(now.angular_velocity[1].y, 10.0f);
+}
+
 // A skin that grows while grains fall ever faster must not hide the floor from those that were far from it.
 TEST_F(WallTest, NoContactIsMissedWhateverTheSkin) {
   const auto fall = [](double skin) {

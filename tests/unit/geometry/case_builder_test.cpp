@@ -51,6 +51,24 @@ TEST(CaseBuilder, TankIsFilledExactlyAndWalledThreeDeep) {
   EXPECT_EQ(c.walls.triangle.size(), 10u);
 }
 
+TEST(CaseBuilder, PlanesOfSymmetryAreSmoothAndNoOtherFace) {
+  Scene s = tank_scene(0.02);
+  s.walls[0].symmetry = {"y+"};
+  BuildReport report;
+  const Case c = build_case(s, report);
+  ASSERT_EQ(c.walls.smooth.size(), c.walls.triangle.size());
+  int smooth = 0;
+  for (std::size_t t = 0; t < c.walls.triangle.size(); ++t) {
+    double least = 1.0;
+    for (int k = 0; k < 3; ++k) least = std::min(least, c.walls.vertex[static_cast<std::size_t>(c.walls.triangle[t][k])].y);
+    EXPECT_EQ(c.walls.smooth[t], least > 0.2 - 1e-9 ? 1 : 0) << t;
+    smooth += c.walls.smooth[t];
+  }
+  EXPECT_EQ(smooth, 2);
+  BuildReport other;
+  EXPECT_TRUE(build_case(tank_scene(0.02), other).walls.smooth.empty());
+}
+
 TEST(CaseBuilder, EverythingLiesInTheDomain) {
   BuildReport report;
   const Case c = build_case(tank_scene(0.02), report);

@@ -2,6 +2,7 @@
 // A case written and read back; cases that are not what they should be.
 #include <cmath>
 
+#include "io/point_source.hpp"
 #include "io/tables.hpp"
 #include "io_fixture.hpp"
 
@@ -87,6 +88,15 @@ TEST_F(CaseTest, particles_come_back) {
   EXPECT_TRUE(back.boundary.normal == c.boundary.normal);
   EXPECT_TRUE(back.boundary.depth == c.boundary.depth);
   EXPECT_TRUE(back.boundary.body == c.boundary.body);
+}
+
+TEST_F(CaseTest, smooth_walls_come_back) {
+  Case c = some_case();
+  c.walls.smooth.assign(c.walls.triangle.size(), 0);
+  c.walls.smooth[0] = 1;
+  write_case(path, c, false);
+  EXPECT_TRUE(read_case(path).walls.smooth == c.walls.smooth);
+  EXPECT_TRUE(open_with_vtk(path + "/walls.vtp")->triangles().smooth == c.walls.smooth);
 }
 
 TEST_F(CaseTest, scene_and_frame_of_reference_come_back) {

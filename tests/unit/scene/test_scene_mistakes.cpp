@@ -46,6 +46,15 @@ TEST_F(SceneMistakes, unknown_key_with_suggestion) {
                        {"lake.toml:4", "wall.0.tank.top", "unknown key"}));
 }
 
+TEST_F(SceneMistakes, planes_of_symmetry) {
+  const std::string tank = dp + "[[wall]]\ntank = {lower = [0,0,0], upper = [1,1,1]}\n";
+  folder.write("a.stl", "solid");
+  EXPECT_TRUE(mentions(refusal(dp + "[[wall]]\nmesh = \"a.stl\"\nsymmetry = [\"y+\"]\n"), {"lake.toml:5", "wall.0.symmetry", "only with tank"}));
+  EXPECT_TRUE(mentions(refusal(tank + "open = [\"y+\"]\nsymmetry = [\"y+\"]\n"), {"wall.0.symmetry", "left out"}));
+  EXPECT_TRUE(mentions(refusal(tank + "condition = \"no-slip\"\nsymmetry = [\"y+\"]\n"), {"wall.0.symmetry", "free-slip"}));
+  EXPECT_TRUE(mentions(refusal(tank + "symmetry = [\"left\"]\n"), {"wall.0.symmetry", "x-"}));
+}
+
 TEST_F(SceneMistakes, wrong_type) {
   EXPECT_TRUE(mentions(refusal("[resolution]\ndp = \"five\"\n"),
                        {"lake.toml:2", "resolution.dp", "'five'", "a number", "(m)"}));

@@ -55,6 +55,7 @@ condition = "no-slip"
 name = "tank"
 tank = {lower = [0, 0, 0], upper = [1, 1, 1]}
 open = ["top", "x+"]
+symmetry = ["y-"]
 
 [[wall]]
 mesh = "solid.stl"
@@ -213,6 +214,7 @@ TEST_F(SceneRead, solids_arrive) {
   const Scene s = read(everything);
   ASSERT_EQ(s.walls.size(), 2u);
   EXPECT_EQ(s.walls[0].open, (std::vector<std::string>{"top", "x+"}));
+  EXPECT_EQ(s.walls[0].symmetry, (std::vector<std::string>{"y-"}));
   EXPECT_EQ(s.walls[1].name, "wall2");
   EXPECT_EQ(s.walls[1].translate, (Vec3d{1.0, 2.0, 3.0}));
   ASSERT_EQ(s.slides.size(), 3u);
