@@ -79,7 +79,7 @@ void describe_width(SceneSummary& s, const Scene& scene) {
   if (what == "periodic")
     add(s, "  along y", false, 0.5, "the scene is the same all along y: a slab some 10 grains wide with domain.periodic = [\"y\"] gives the same answer");
   if (what == "half")
-    add(s, "  symmetry", false, 0.5, "mirrored about the middle of the tank: half of it, with its free-slip wall in the middle, gives the same answer");
+    add(s, "  symmetry", false, 0.5, "mirrored about the middle of the tank: half of it, with wall.symmetry = [\"y+\"] in the middle, gives the same answer");
 }
 
 /// Particles that the columns stand for.
@@ -178,8 +178,10 @@ ContactSoftness contact_softness(const SimulationInput& in, double expected_spee
 
 std::string needless_width(const Scene& scene) {
   if (scene.dimensions == 2 || !scene.terrain.files.empty() || !scene.floating.empty() || !scene.periodic.empty()) return "";
-  if (scene.walls.size() != 1 || !scene.walls.front().tank || scene.walls.front().condition != "free-slip") return "";
-  const Box tank = *scene.walls.front().tank;
+  if (scene.walls.size() != 1) return "";
+  const Wall& wall = scene.walls.front();
+  if (!wall.tank || wall.condition != "free-slip" || !wall.symmetry.empty()) return "";
+  const Box tank = *wall.tank;
   const double middle = 0.5 * (tank.lower.y + tank.upper.y), near = 1.0e-9 * (tank.upper.y - tank.lower.y);
   bool spans = true, mirrored = true, possible = norm(Vec3d{scene.gravity.x, scene.gravity.y, 0.0}) == 0.0;
   const auto look = [&](const std::optional<Box>& box) {

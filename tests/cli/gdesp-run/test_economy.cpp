@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "case_to_input.hpp"
 #include "core/error.hpp"
 #include "scene_economy.hpp"
 #include "simulation/simulation.hpp"
+#include "../../support/surfaces.hpp"
 #include "target.hpp"
 
 namespace gdesp::tool {
@@ -179,6 +181,57 @@ TEST(Targets, choose_the_dp_of_an_exact_first_order_method) {
   EXPECT_NEAR(coarse.dp, 0.2, 1e-9) << "no finer than needed";
   pilots[1].run_up += 0.3;
   EXPECT_THROW(choose_dp(pilots, {0.01, 0.0}, 3), Error) << "scatter";
+}
+
+
+/// A column of grains collapses on a rough floor between rough walls: all of it, or half of it against a plane of symmetry. Where its
+/// grains are in the mean, over some starts.
+Vec3d heap(bool whole, bool smooth) {
+  constexpr double d = 0.02, pitch = 1.05 * d;
+  Vec3d sum;
+  constexpr int starts = 10;
+  for (int start = 0; start < starts; ++start) {
+    SimulationInput in;
+    in.fluid_parameters.dp = 0.02;
+    in.lower = {-0.05, whole ? -0.25 : -0.05, -0.05};
+    in.upper = {0.75, 0.25, 0.5};
+    std::mt19937 random(7u + static_cast<unsigned>(start));
+    std::uniform_real_distribution<double> jitter(-0.02 * d, 0.02 * d);
+    const auto add = [&](const Vec3d& r) {
+      in.grains.position.push_back(r);
+      in.grains.diameter.push_back(static_cast<float>(d));
+      in.grains.density.push_back(2500.0f);
+    };
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j < 5; ++j)
+        for (int k = 0; k < 10; ++k) {
+          const Vec3d r{(i + 0.5) * pitch + jitter(random), (j + 0.5) * pitch + jitter(random), (k + 0.5) * pitch + jitter(random)};
+          add(r);
+          if (whole) add({r.x, -r.y, r.z});
+        }
+    const double low = whole ? -0.15 : 0.0, high = 0.15, length = 0.7, top = 0.4;
+    test::add_rectangle(in.walls, {0, low, 0}, {length, low, 0}, {length, high, 0}, {0, high, 0});
+    test::add_rectangle(in.walls, {0, low, 0}, {0, high, 0}, {0, high, top}, {0, low, top});
+    test::add_rectangle(in.walls, {0, high, 0}, {length, high, 0}, {length, high, top}, {0, high, top});
+    in.walls.smooth.assign(in.walls.triangle.size(), 0);
+    test::add_rectangle(in.walls, {0, low, 0}, {0, low, top}, {length, low, top}, {length, low, 0});
+    in.walls.smooth.resize(in.walls.triangle.size(), smooth ? 1 : 0);
+    in.walls.body.assign(in.walls.triangle.size(), 0);
+    in.contact.youngs_modulus = 2.0e6;
+    in.contact.friction = 0.5;
+    auto simulation = make_simulation(in, "cpu");
+    simulation->advance_to(0.4);
+    const auto grains = simulation->grains();
+    for (const Vec3d& r : grains.position) sum += Vec3d{r.x, std::abs(r.y), r.z} * (1.0 / static_cast<double>(starts * grains.position.size()));
+  }
+  return sum;
+}
+
+TEST(NeedlessWidth, half_a_heap_behind_a_plane_of_symmetry_lies_as_the_whole) {
+  const Vec3d whole = heap(true, false), half = heap(false, true), held = heap(false, false);
+  EXPECT_GT(whole.x, 0.1) << "it has spread";
+  for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(half[axis], whole[axis], 0.01 * whole[axis]);
+  EXPECT_LT(held.x, 0.97 * whole.x) << "a plane with friction holds it back";
 }
 
 }  // namespace
