@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "geometry/symmetry_planes.hpp"
 
 namespace gdesp::geometry {
 namespace {
@@ -51,10 +52,14 @@ void add_one_tank(const WallPart& tank, const SceneParts& parts, const Lattice& 
       for (const double z : ticks[2]) {
         const Vec3d p{x, y, z};
         Vec3d inward;
-        for (int a = 0; a < 3; ++a) inward[a] = p[a] < lo[a] ? lo[a] - p[a] : (p[a] > hi[a] ? hi[a] - p[a] : 0.0);
+        bool no_slip = false;   // what stands behind planes of symmetry alone lets the fluid slip
+        for (int a = 0; a < 3; ++a) {
+          inward[a] = p[a] < lo[a] ? lo[a] - p[a] : (p[a] > hi[a] ? hi[a] - p[a] : 0.0);
+          no_slip = no_slip || (tank.no_slip && inward[a] != 0.0 && !is_symmetry(tank, face[a][inward[a] > 0.0 ? 0 : 1]));
+        }
         const double depth = norm(inward);
         if (depth == 0.0 || inside_other_tank(parts, &tank, p)) continue;
-        add(out, p, inward * (1.0 / depth), depth, 0, tank.no_slip);
+        add(out, p, inward * (1.0 / depth), depth, 0, no_slip);
       }
     }
   }

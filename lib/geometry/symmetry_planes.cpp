@@ -27,7 +27,7 @@ std::vector<Face> symmetry_faces(const SceneParts& parts) {
   std::vector<Face> faces;
   for (const WallPart& wall : parts.walls) {
     for (int f = 0; f < 6; ++f) {
-      if (std::find(wall.symmetry.begin(), wall.symmetry.end(), name[f]) == wall.symmetry.end()) continue;
+      if (!is_symmetry(wall, name[f])) continue;
       faces.push_back({f / 2, (f % 2 ? wall.tank.upper : wall.tank.lower)[f / 2], wall.tank});
     }
   }
@@ -35,6 +35,10 @@ std::vector<Face> symmetry_faces(const SceneParts& parts) {
 }
 
 }  // namespace
+
+bool is_symmetry(const WallPart& tank, const char* face) {
+  return std::find(tank.symmetry.begin(), tank.symmetry.end(), face) != tank.symmetry.end();
+}
 
 void mark_symmetry_planes(const SceneParts& parts, double tolerance, TriangleTable& walls) {
   const std::vector<Face> faces = symmetry_faces(parts);

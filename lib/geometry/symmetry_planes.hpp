@@ -7,6 +7,9 @@
 
 namespace gdesp::geometry {
 
+/// Whether a face of a tank ("x-", ..., "top") is one.
+bool is_symmetry(const WallPart& tank, const char* face);
+
 /// Marks as smooth the triangles at rest that lie within `tolerance` (m) in a tank's planes of symmetry, those of other walls in the
 /// same face too. Nothing is marked in a scene without such planes.
 void mark_symmetry_planes(const SceneParts& parts, double tolerance, TriangleTable& walls);

@@ -67,8 +67,6 @@ void check_wall(const KeySources& sources, const std::string& key, const Wall& w
   if (!wall.tank && !wall.open.empty()) fail(sources, key + ".open", "only with tank");
   if (wall.open.size() >= 6) fail(sources, key + ".open", "all faces are left out");
   if (!wall.tank && !wall.symmetry.empty()) fail(sources, key + ".symmetry", "only with tank");
-  if (!wall.symmetry.empty() && wall.condition != "free-slip")
-    fail(sources, key + ".symmetry", "a plane of symmetry lets the fluid slip: only with condition = \"free-slip\" (give the other faces as a wall of their own)");
   for (const std::string& face : wall.symmetry) {
     if (std::find(wall.open.begin(), wall.open.end(), face) != wall.open.end())
       fail(sources, key + ".symmetry", "\"" + face + "\" is left out (open): a plane of symmetry is a face of the tank");

@@ -65,6 +65,14 @@ TEST(CaseBuilder, PlanesOfSymmetryAreSmoothAndNoOtherFace) {
     smooth += c.walls.smooth[t];
   }
   EXPECT_EQ(smooth, 2);
+  s.walls[0].condition = "no-slip";
+  BuildReport rough;
+  const BoundaryTable layers = build_case(s, rough).boundary;
+  for (std::size_t k = 0; k < layers.position.size(); ++k) {
+    const Vec3d& p = layers.position[k];
+    const bool behind_others = p.x < 0.0 || p.x > 0.4 || p.y < 0.0 || p.z < 0.0;
+    EXPECT_EQ(layers.friction[k], behind_others ? 1.0f : 0.0f) << p.x << " " << p.y << " " << p.z;
+  }
   BuildReport other;
   EXPECT_TRUE(build_case(tank_scene(0.02), other).walls.smooth.empty());
 }

@@ -51,7 +51,6 @@ TEST_F(SceneMistakes, planes_of_symmetry) {
   folder.write("a.stl", "solid");
   EXPECT_TRUE(mentions(refusal(dp + "[[wall]]\nmesh = \"a.stl\"\nsymmetry = [\"y+\"]\n"), {"lake.toml:5", "wall.0.symmetry", "only with tank"}));
   EXPECT_TRUE(mentions(refusal(tank + "open = [\"y+\"]\nsymmetry = [\"y+\"]\n"), {"wall.0.symmetry", "left out"}));
-  EXPECT_TRUE(mentions(refusal(tank + "condition = \"no-slip\"\nsymmetry = [\"y+\"]\n"), {"wall.0.symmetry", "free-slip"}));
   EXPECT_TRUE(mentions(refusal(tank + "symmetry = [\"left\"]\n"), {"wall.0.symmetry", "x-"}));
 }
 
