@@ -28,7 +28,7 @@ struct KickDrift {
   RecordPacker packer;
   float dt, dt_position;
   const float* near_wall;  // null: no guard
-  float sound_speed;
+  float sound_speed, dp;
   const float* spacing;    // null: no shifting
   const float* near_surface;
   float shift_strength;    // k h, m
@@ -40,7 +40,7 @@ struct KickDrift {
   GDESP_HD void operator()(Index s) const {
     if (packer.id[s] != no_particle) {
       Vec3f v = state.velocity[s] + state.acceleration(s) * dt;
-      if (near_wall) v = guarded_velocity(v, wall_at(s), dt, sound_speed);
+      if (near_wall) v = guarded_velocity(v, wall_at(s), dt, sound_speed, dp);
       state.velocity[s] = v;
       Vec3f move = v * dt_position;
       if (spacing) {
@@ -257,7 +257,7 @@ template <class Exec>
 void FluidSystem<Exec>::kick_drift(float dt, float dt_position, float fastest) {
   exec::parallel_for(exec_, "sph::kick_drift", awake_slots(),
                      chosen_slots(awake_list(), KickDrift{state_view(), packer(), dt, dt_position, guarded_ ? near_wall_.data() : nullptr,
-                                                          static_cast<float>(parameters_.sound_speed),
+                                                          static_cast<float>(parameters_.sound_speed), static_cast<float>(parameters_.dp),
                                                           parameters_.shifting > 0.0 ? spacing_.data() : nullptr, near_surface_.data(),
                                                           static_cast<float>(parameters_.shifting * parameters_.h), fastest}));
 }

@@ -2,8 +2,8 @@
 // @eq sph.wall.extrapolation
 //   P_w = ( sum_f P_f W_wf + (g - a_w) . sum_f rho_f (r_w - r_f) W_wf ) / sum_f W_wf;  rho_w from max(P_w, 0) by the Tait law.
 //   P_w: pressure of a wall particle [Pa], f: fluid particles, a_w: acceleration of the wall [m/s2]. A wall does not pull:
-//   in a pair P_w counts as max(P_w, min(0, -P_f)). (Cut at zero whatever P_f, a wall above still water pushes the water
-//   at the shore down the slope.) Source: Adami, Hu, Adams (2012), J. Comput. Phys. 231, 7057, eqs 27-28,
+//   in a pair P_w counts as max(min(P_w, 4 P_w), min(0, -P_f)). (Cut at zero whatever P_f, a wall above still water pushes
+//   the water at the shore down the slope; not fourfold below zero, it pushes the rows below the surface off the wall, against air.) Source: Adami, Hu, Adams (2012), J. Comput. Phys. 231, 7057, eqs 27-28,
 //   doi:10.1016/j.jcp.2012.05.005.
 // @eq sph.wall.no-slip
 //   v_ghost = 2 v_w - sum_f v_f W_wf / sum_f W_wf,  seen by the viscosity alone; continuity sees v_w.
@@ -30,7 +30,7 @@ template <class Real>
 GDESP_HD inline Real pressing_wall(const Real& A_w, const Real& A_f) {
   using real::max;
   using real::min;
-  return max(A_w, min(Real(0.0f), Real(0.0f) - A_f));
+  return max(min(A_w, Real(4.0f) * A_w), min(Real(0.0f), Real(0.0f) - A_f));
 }
 
 /// Adds fluid particle f. r = r_w - r_f. Returns W / alpha.

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // @eq sph.wall.guard
 //   A particle of water at distance s from the wall's true surface may approach it by half that distance a step at most:
-//     v_n >= v_w,n - s/(2 dt)  for s > 0;   v_n >= v_w,n + min(-s/(10 dt), c/20)  for s <= 0.
+//     v_n >= v_w,n - s/(2 dt)  for s > 0;   v_n >= v_w,n + min(max(0, -s - dp/10)/(10 dt), c/20)  for s <= 0.
 //   s and the normal n are means over the wall particles near by, weighted by (1 - |r - f_w|/(2 dp))^6, of
 //     s_w = (r - f_w) . n_w,   f_w = r_w + depth_w n_w,
 //   f_w: the point of the surface that the wall particle lies below. The nearest piece of the surface decides at edges.
 //   Where s_w < 0 the weight has the factor max(0, min(1, 2 - 2 |r - r_w|/dp)): water inside a wall has a particle of the wall within
 //   0.87 dp, water that is only behind the plane of a ridge's far face has not (without it notches threw water at c/20).
 //   (Weights by |r - r_w| let the crest of a dam, whose plane lies above, speak for water beside its face.) v_n, v_w,n: normal velocity of water and wall [m/s]; c: sound speed.
-//   In ordinary flow the bound lies near c/6 and never acts; it is what keeps a particle from slipping between wall
+//   The first tenth of dp behind the surface is not pushed back: s is a mean over facets, and still water that touched a wall was thrown off it
+//   (8 % of sqrt(g H), single particles). In ordinary flow the bound lies near c/6 and never acts; it is what keeps a particle from slipping between wall
 //   particles on stair-stepped terrain (extrapolated pressures alone let some through). Source: own construction.
 #pragma once
 
@@ -52,15 +53,15 @@ struct NearWall {
   float weight, distance, nx, ny, nz, wall_speed;  ///< sums as gathered
 };
 
-/// v (m/s) with the bound applied for a step dt (s); c: sound speed (m/s).
-GDESP_HD inline Vec3f guarded_velocity(const Vec3f& v, const NearWall& wall, float dt, float c) {
+/// v (m/s) with the bound applied for a step dt (s); c: sound speed (m/s); dp: particle spacing (m).
+GDESP_HD inline Vec3f guarded_velocity(const Vec3f& v, const NearWall& wall, float dt, float c, float dp) {
   if (!(wall.weight > 1.0e-9f)) return v;
   Vec3f n{wall.nx, wall.ny, wall.nz};
   const float length = norm(n);
   if (length < 0.3f * wall.weight) return v;  // opposite walls: no direction is out
   n *= 1.0f / length;
   const float s = wall.distance / wall.weight, wall_speed = wall.wall_speed / wall.weight;
-  const float least = wall_speed + (s > 0.0f ? -0.5f * s / dt : real::min(-0.1f * s / dt, 0.05f * c));
+  const float least = wall_speed + (s > 0.0f ? -0.5f * s / dt : real::min(0.1f * real::max(-s - 0.1f * dp, 0.0f) / dt, 0.05f * c));
   const float along = dot(v, n);
   return along < least ? v + n * (least - along) : v;
 }

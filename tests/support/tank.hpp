@@ -4,8 +4,10 @@
 
 #include <cmath>
 
+#include "particles/surface_rows.hpp"
 #include "simulation/simulation.hpp"
 #include "sph/fluid_system.hpp"
+#include "sph/tait.hpp"
 
 namespace gdesp::test {
 
@@ -49,6 +51,22 @@ inline SimulationInput tank_input(const Vec3d& size, double depth, double dp, in
   p.skin = 0.15 * p.h;
   wall_tank(input.boundary, {}, size, dp, dimensions == 2);
   return input;
+}
+
+/// Brings the rows of still water below z = depth, and the walls beside them, to where they rest (sph.surface-rows), with their pressures.
+inline void rest_rows(SimulationInput& input, double depth) {
+  const auto& p = input.fluid_parameters;
+  const std::vector<double> shift = surface_row_shifts(p.h / p.dp, p.dimensions);
+  for (auto* list : {&input.fluid.position, &input.boundary.position}) {
+    for (Vec3d& r : *list) {
+      const long row = std::lround((depth - r.z) / p.dp - 0.5);
+      if (row >= 0 && row < static_cast<long>(shift.size())) r.z += shift[static_cast<std::size_t>(row)] * p.dp;
+    }
+  }
+  for (const Vec3d& r : input.fluid.position) {
+    const double A = norm(p.gravity) * (depth - r.z) / (p.sound_speed * p.sound_speed);
+    input.fluid.density.push_back(static_cast<float>(p.reference_density * (1.0 + sph::tait_density(static_cast<float>(A)))));
+  }
 }
 
 /// What the passes wrote, in the order of ids.

@@ -8,6 +8,7 @@
 // @eq sph.continuity
 // @eq sph.wall.extrapolation
 // @eq sph.wall.guard
+// @eq sph.surface-rows
 // @eq sph.cavitation
 // @eq sph.shifting
 // @eq sph.tensile-control
@@ -17,6 +18,7 @@
 #include <numbers>
 
 #include "exec/lanes.hpp"
+#include "particles/surface_rows.hpp"
 #include "sph/particle_shifting.hpp"
 #include "sph/pressure_and_viscosity.hpp"
 #include "sph/tait.hpp"
@@ -158,6 +160,20 @@ TEST(FluidPair, a_particle_adds_nothing_to_itself_and_padding_adds_nothing) {
   EXPECT_EQ(rates.diffusion, 0.0f);
 }
 
+TEST(SurfaceRows, take_the_imbalance_of_the_first_rows_away) {
+  for (const double smoothing_ratio : {1.3, 1.5, 2.0}) {
+    const SurfaceRows rows(smoothing_ratio, 3);
+    const std::vector<double> lattice(SurfaceRows::count, 0.0), shift = surface_row_shifts(smoothing_ratio, 3);
+    ASSERT_EQ(shift.size(), lattice.size());
+    EXPECT_LT(rows.acceleration(lattice, 0), -0.02) << "too little presses the first row up";
+    EXPECT_GT(rows.acceleration(lattice, 1), 0.02);
+    for (int k = 0; k < SurfaceRows::count; ++k) EXPECT_NEAR(rows.acceleration(shift, k), 0.0, 1e-6);
+    EXPECT_NEAR(rows.acceleration(shift, SurfaceRows::count + 6), 0.0, 1e-12) << "the lattice is exact below";
+  }
+  EXPECT_NEAR(surface_row_shifts(1.5, 3)[0], -0.0551, 1e-4);
+  EXPECT_NEAR(surface_row_shifts(1.5, 2)[0], -0.0617, 1e-4);
+}
+
 TEST(WallPair, a_wall_under_still_water_gets_the_hydrostatic_pressure) {
   // Fluid layers above a wall particle at z = 0, A linear in depth: the extrapolation must be exact.
   const float h = 1.0f, slope = -0.01f, A0 = 0.2f;  // A(z) = A0 + slope z = hydrostatic for g_z/c^2 = slope
@@ -176,12 +192,20 @@ TEST(WallGuard, stops_half_way_to_the_wall_and_leaves_the_rest_alone) {
     add_wall_guard(0.5f, r, n, 0.5f, v, sums);  // the surface lies 0.5 above these: s = 0.4
   }
   const NearWall wall{sums.weight, sums.distance, sums.nx, sums.ny, sums.nz, sums.wall_speed};
-  const Vec3f fast = guarded_velocity({3.0f, 0.0f, -10.0f}, wall, 0.1f, 100.0f);
+  const Vec3f fast = guarded_velocity({3.0f, 0.0f, -10.0f}, wall, 0.1f, 100.0f, 1.0f);
   EXPECT_NEAR(fast.z, -0.5f * 0.4f / 0.1f, 1e-5f);
   EXPECT_EQ(fast.x, 3.0f);
-  const Vec3f slow = guarded_velocity({3.0f, 0.0f, -1.9f}, wall, 0.1f, 100.0f);
+  const Vec3f slow = guarded_velocity({3.0f, 0.0f, -1.9f}, wall, 0.1f, 100.0f, 1.0f);
   EXPECT_EQ(slow.z, -1.9f);
-  EXPECT_EQ(guarded_velocity({0, 0, -9.0f}, {}, 0.1f, 100.0f).z, -9.0f);
+  EXPECT_EQ(guarded_velocity({0, 0, -9.0f}, {}, 0.1f, 100.0f, 1.0f).z, -9.0f);
+}
+
+TEST(WallGuard, pushes_out_what_lies_deeper_than_a_tenth_of_a_spacing) {
+  const auto behind = [](float s, float v) { return guarded_velocity({0.0f, 0.0f, v}, {1.0f, s, 0.0f, 0.0f, 1.0f, 0.0f}, 0.1f, 1000.0f, 1.0f).z; };
+  EXPECT_EQ(behind(-0.05f, -2.0f), 0.0f) << "no further in, and not thrown";
+  EXPECT_EQ(behind(-0.05f, 0.5f), 0.5f);
+  EXPECT_NEAR(behind(-0.6f, -2.0f), 0.5f, 1e-6f) << "half a spacing too deep, out in ten steps";
+  EXPECT_NEAR(behind(-900.0f, 0.0f), 50.0f, 1e-3f) << "c/20 at most";
 }
 
 // -grad C and D over a square lattice of spacing dp, particles with z > top left out, one moved by (dx, 0).
@@ -241,7 +265,7 @@ TEST(WallGuard, far_face_of_a_ridge_does_not_speak_for_water_on_this_side) {
   add_wall_guard(1.0f / 32.0f, ridge, away, 1.0f, v, sums);
   add_wall_guard(1.0f / 32.0f, dam, out, 4.0f, v, sums);
   EXPECT_NEAR(sums.distance / sums.weight, 28.0f, 1e-4f);
-  EXPECT_EQ(guarded_velocity({}, {sums.weight, sums.distance, sums.nx, sums.ny, sums.nz, sums.wall_speed}, 0.02f, 400.0f).y, 0.0f);
+  EXPECT_EQ(guarded_velocity({}, {sums.weight, sums.distance, sums.nx, sums.ny, sums.nz, sums.wall_speed}, 0.02f, 400.0f, 16.0f).y, 0.0f);
   // Water that is inside is told so: 0.4 dp from the wall particle, 0.6 dp below the surface.
   WallGuardSums<float> within;
   const float close[3] = {0.0f, -6.4f, 0.0f};
@@ -251,6 +275,8 @@ TEST(WallGuard, far_face_of_a_ridge_does_not_speak_for_water_on_this_side) {
 
 TEST(WallPair, a_wall_above_still_water_neither_pushes_nor_pulls) {
   EXPECT_EQ(pressing_wall(-0.3f, 0.3f), -0.3f) << "the linear field of still water: the pair's sum is zero";
+  EXPECT_FLOAT_EQ(pressing_wall(-0.1f, 0.3f), -0.3f) << "the second row is not pushed off a wall that has air beside it";
+  EXPECT_FLOAT_EQ(pressing_wall(-0.01f, 0.3f), -0.04f) << "and what changes sign does so without a jump";
   EXPECT_EQ(pressing_wall(-0.5f, 0.3f), -0.3f) << "never pulls";
   EXPECT_EQ(pressing_wall(0.2f, 0.3f), 0.2f);
   EXPECT_EQ(pressing_wall(-0.2f, -0.3f), 0.0f) << "water in tension finds the wall at zero";

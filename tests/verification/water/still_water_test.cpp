@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // V2: a tank at rest, and what a run must not depend on.
 // @eq time.fluid-step
+// @eq sph.surface-rows
 #include <gtest/gtest.h>
 
 #include "exec/backend.hpp"
@@ -12,33 +13,61 @@ namespace {
 
 constexpr double depth = 0.3, g = 9.81;
 
-SimulationInput still_tank(double dp, int dimensions) {
+SimulationInput still_tank(double dp, int dimensions, double smoothing_ratio = 1.5) {
   const double width = dimensions == 2 ? 0.0 : 0.12;
   SimulationInput input = test::tank_input({0.4, width, 0.45}, depth, dp, dimensions);
-  input.fluid_parameters.h = 1.5 * dp;
+  input.fluid_parameters.h = smoothing_ratio * dp;
   input.fluid_parameters.artificial_viscosity = 0.05;
   test::fill_block(input.fluid, {0, 0, 0}, {0.4, width, depth}, dp, dimensions == 2);
   return input;
 }
 
-// Largest pressure error over rho g H and spurious speed over sqrt(g H).
-void expect_still(const SimulationInput& input, double end, double pressure_bound, double speed_bound) {
+/// Largest speed (over sqrt(g H)) of any step until `end`.
+double highest_speed(Simulation& simulation, double end) {
+  double highest = 0.0;
+  while (simulation.time() < end) {
+    simulation.step(end);
+    highest = std::max(highest, simulation.step_state().mach * simulation.sound_speed());
+  }
+  return highest / std::sqrt(g * depth);
+}
+
+/// Spurious speed over sqrt(g H) from t = 0 to `end`, and largest pressure error over rho g H then.
+void expect_still(SimulationInput input, double end, double pressure_bound, double speed_bound) {
+  test::rest_rows(input, depth);
   auto simulation = make_simulation(input, "cpu");
-  simulation->advance_to(end);
+  EXPECT_LT(highest_speed(*simulation, end), speed_bound);
   const FluidTable water = simulation->fluid();
-  double error = 0.0, speed = 0.0;
+  double error = 0.0;
   for (std::size_t i = 0; i < water.position.size(); ++i) {
     const double exact = 1000.0 * g * (depth - water.position[i].z);
     error = std::max(error, std::abs(static_cast<double>(water.pressure[i]) - exact) / (1000.0 * g * depth));
-    speed = std::max(speed, static_cast<double>(norm(water.velocity[i])));
   }
   EXPECT_LT(error, pressure_bound);
-  EXPECT_LT(speed / std::sqrt(g * depth), speed_bound);
   EXPECT_EQ(simulation->diagnostics().lost_fluid, 0);
 }
 
-TEST(StillWater, stays_still_in_the_plane) { expect_still(still_tank(0.01, 2), 2.0, 0.02, 0.005); }
-TEST(StillWater, stays_still_in_space) { expect_still(still_tank(0.02, 3), 1.5, 0.02, 0.005); }
+TEST(StillWater, stays_still_in_the_plane) { expect_still(still_tank(0.01, 2, 2.0), 5.0, 0.02, 0.005); }
+TEST(StillWater, stays_still_in_space) { expect_still(still_tank(0.02, 3), 2.0, 0.02, 0.005); }
+
+// With h = 1.5 dp the square lattice gives way between 1 and 4 s, at up to 1.2 % (docs/decisions/0032, 0053): the goal holds before and after.
+TEST(StillWater, is_still_before_and_after_the_lattice_gives_way) {
+  SimulationInput input = still_tank(0.01, 2);
+  test::rest_rows(input, depth);
+  auto simulation = make_simulation(input, "cpu");
+  EXPECT_LT(highest_speed(*simulation, 0.9), 0.005);
+  simulation->advance_to(5.0);
+  EXPECT_LT(highest_speed(*simulation, 8.0), 0.005);
+}
+
+// Rows that are not shifted fall and rise by a twentieth of a spacing first.
+TEST(StillWater, rows_at_rest_are_what_keeps_its_surface_from_moving_at_the_start) {
+  SimulationInput shifted = still_tank(0.01, 2);
+  const auto lattice = make_simulation(shifted, "cpu");
+  test::rest_rows(shifted, depth);
+  const auto rests = make_simulation(shifted, "cpu");
+  EXPECT_LT(highest_speed(*rests, 0.2), 0.5 * highest_speed(*lattice, 0.2));
+}
 
 TEST(Simulation, gives_the_same_bytes_with_any_number_of_threads) {
   SimulationInput input = still_tank(0.02, 3);
