@@ -38,6 +38,7 @@ std::string output_of(const std::string& program, const std::vector<std::string>
   std::vector<std::string> words{path};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
+  argv.reserve(words.size() + 1);
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   int ends[2];
@@ -93,7 +94,7 @@ ordered_json build(const RunOptions& o, const Scene& scene, double dp, const std
   for (const std::string& word : set_dp(scene, o.overrides, dp)) words.push_back(word);
   std::istringstream lines(output_of("mesh2particles", words));
   for (std::string line; std::getline(lines, line);) {
-    const ordered_json record = ordered_json::parse(line, nullptr, false);
+    ordered_json record = ordered_json::parse(line, nullptr, false);
     if (record.is_object() && record.value("record", "") == "case") return record;
   }
   throw Error(ErrorKind::input, "mesh2particles made no case of " + o.case_path);

@@ -43,7 +43,7 @@ po::options_description output_options() {
   return o;
 }
 
-CommandLine::CommandLine(const std::string& command, po::options_description own, Inputs inputs) : name(command) {
+CommandLine::CommandLine(const std::string& command, const po::options_description& own, Inputs inputs) : name(command) {
   all.add(own);
   if (inputs == Inputs::frames) all.add(input_options());
   all.add(output_options()).add(cli::common_options());

@@ -22,7 +22,7 @@ po::options_description output_options();
 /// Input, output and common options in one, with those of the command first.
 struct CommandLine {
   enum class Inputs { frames, own };     ///< whether the command reads frames, or names its inputs itself
-  CommandLine(const std::string& name, po::options_description own, Inputs inputs = Inputs::frames);
+  CommandLine(const std::string& name, const po::options_description& own, Inputs inputs = Inputs::frames);
   /// False when --help or --version has been answered. `definition` explains what is measured; `positional`: the
   /// option that takes the words without a name.
   bool parse(const std::vector<std::string>& arguments, const std::string& definition, const std::string& example,

@@ -24,6 +24,7 @@ void require_display(const std::vector<std::string>& arguments) {
   if (length > 0) words[4].assign(self, static_cast<std::size_t>(length));
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> raw;
+  raw.reserve(words.size() + 1);
   for (std::string& w : words) raw.push_back(w.data());
   raw.push_back(nullptr);
   ::execvp(raw[0], raw.data());
@@ -32,7 +33,7 @@ void require_display(const std::vector<std::string>& arguments) {
 }
 
 std::string output_path(const CommandLine& line) {
-  const std::string path = line.has("output") ? line.get<std::string>("output") : line.has("plot") ? line.get<std::string>("plot") : "";
+  std::string path = line.has("output") ? line.get<std::string>("output") : line.has("plot") ? line.get<std::string>("plot") : "";
   if (path.size() < 5 || path.substr(path.size() - 4) != ".png") {
     throw Error(ErrorKind::usage, "-o " + (path.empty() ? std::string("is missing") : path) + ": a name that ends in .png is needed");
   }

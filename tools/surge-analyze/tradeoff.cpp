@@ -142,6 +142,7 @@ int run_tradeoff(const std::vector<std::string>& arguments) {
   std::vector<Point> points;
   const auto runs = line.get<std::vector<std::string>>("input");
   if (!runs.empty() && !line.has("reference")) throw Error(ErrorKind::usage, "tradeoff: --reference VALUE is needed for runs");
+  points.reserve(runs.size());
   for (const std::string& run : runs) points.push_back(measure_run(line, run, line.get<double>("reference")));
   if (line.has("points")) {
     for (const std::string& path : line.get<std::vector<std::string>>("points")) add_points(path, points);
