@@ -20,6 +20,11 @@ void add(BoundaryTable& out, const Vec3d& p, const Vec3d& normal, double depth, 
   out.friction.push_back(no_slip ? 1.0f : 0.0f);
 }
 
+/// m, of the particle of a band point below the surface.
+double placed_depth(const BandPoint& b, const Lattice& lattice) {
+  return std::max(-b.distance - b.normal.z * lattice.shift(b.at.z), least_depth * lattice.dp);
+}
+
 /// Coordinates along one axis of a tank: layers before its lower face, points fitted between, layers after its upper face.
 std::vector<double> tank_ticks(int axis, const WallPart& tank, const Lattice& lattice, bool low_closed, bool high_closed) {
   std::vector<double> ticks;
@@ -130,7 +135,7 @@ void add_tank_layers(const SceneParts& parts, const Lattice& lattice, BoundaryTa
 void add_band_layers(const std::vector<BandPoint>& band, const SceneParts& parts, const Lattice& lattice, BoundaryTable& out) {
   for (const auto& b : band) {
     if (b.distance > 0.0f || -b.distance > boundary_layer_count * lattice.dp || belongs_to_tank(b, parts, lattice)) continue;
-    add(out, lattice.point(b.at), static_cast<Vec3d>(b.normal), std::max<double>(-b.distance, least_depth * lattice.dp), 0, is_no_slip(parts, b.material));
+    add(out, lattice.place(b.at), static_cast<Vec3d>(b.normal), placed_depth(b, lattice), 0, is_no_slip(parts, b.material));
   }
 }
 
@@ -159,7 +164,7 @@ void add_body_layers(const SolidPart& body, std::int32_t number, const Lattice& 
   std::size_t added = 0;
   for (const auto& b : signed_distance_band(surface, request, "", {})) {
     if (b.distance > 0.0f) continue;
-    add(out, lattice.point(b.at), static_cast<Vec3d>(b.normal), std::max<double>(-b.distance, least_depth * lattice.dp), number, body.no_slip);
+    add(out, lattice.place(b.at), static_cast<Vec3d>(b.normal), placed_depth(b, lattice), number, body.no_slip);
     ++added;
   }
   if (added == 0) throw Error(ErrorKind::input, body.name + " is thinner than resolution.dp = " + std::to_string(lattice.dp) + " m: no particle fits; refine dp");

@@ -192,6 +192,7 @@ void set_start_pressure(const Layout& layout, const FillSpace& space, const std:
     for (int i = -1; i <= 1 && level < p.z - half; ++i) {
       for (int j = -1; j <= 1; ++j) level = std::max(level, top[column_of(space, p, i, j)]);
     }
+    if (level > -1e299) level -= layout.lattice.shift(layout.lattice.nearest(2, level));
     fluid.pressure.push_back(static_cast<float>(weight * std::max(0.0, level + half - p.z)));
   }
 }
@@ -329,7 +330,7 @@ Case build_case(const Scene& scene, BuildReport& report, const BuildOptions& opt
   const bool moves = everywhere && first < last;
   if (moves) relax_water(out.fluid.position, out.boundary, first, last, space, scene.numerics.smoothing_ratio * scene.dp);
   thin_to_pores(out.fluid.position, porous_regions(layout, space), space);
-  if (moves) set_start_pressure(layout, space, top, out.fluid);
+  if (moves || !layout.lattice.row_shift.empty()) set_start_pressure(layout, space, top, out.fluid);
   set_start_velocity(layout, out);
   const Box ground = bounds(layout.parts.terrain), all = bounds(layout.parts);
   out.terrain_top = is_empty(ground) ? (is_empty(all) ? 0.0 : all.upper.z) : ground.upper.z;

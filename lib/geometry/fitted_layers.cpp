@@ -91,7 +91,8 @@ class Layers {
       const Vec3d normal = static_cast<Vec3d>(band[i].normal);
       const double depth = -band[i].distance;
       if (kept[i]) {
-        if (is_in_layers(band[i])) add({r_.lattice.point(band[i].at), normal, std::max(depth, least_depth * dp_), band[i].material}, -1);
+        const double placed = depth - normal.z * r_.lattice.shift(band[i].at.z);
+        if (is_in_layers(band[i])) add({r_.lattice.place(band[i].at), normal, std::max(placed, least_depth * dp_), band[i].material}, -1);
         continue;
       }
       for (int k = 0; k < boundary_layer_count; ++k) {

@@ -8,6 +8,7 @@
 #include "geometry/case_builder.hpp"
 #include "geometry/misplaced.hpp"
 #include "geometry/surface_union.hpp"
+#include "particles/surface_rows.hpp"
 
 namespace gdesp::geometry {
 namespace {
@@ -73,6 +74,12 @@ Box outer_domain(Box box, const Scene& scene) {
   return box;
 }
 
+/// Whether the rows of sph.surface-rows are at rest: where walls carry the water's own linear pressure on, and gravity points down.
+bool rests_on_its_rows(const Scene& scene) {
+  const bool on_lattice = scene.numerics.wall_layers != "fitted" || scene.dimensions == 3;   // walls beside the water (fitted_layers.hpp)
+  return on_lattice && scene.numerics.walls == "extrapolated" && scene.gravity.x == 0.0 && scene.gravity.y == 0.0 && scene.gravity.z < 0.0;
+}
+
 Lattice choose_lattice(const SceneParts& parts, const Scene& scene, const Box& inner) {
   Lattice lattice;
   lattice.dp = scene.dp;
@@ -87,7 +94,10 @@ Lattice choose_lattice(const SceneParts& parts, const Scene& scene, const Box& i
   for (const auto& f : scene.fluid.fill) {
     if (anchored) break;
     if (f.kind == "box") lattice.origin = f.box->lower, anchored = true;
-    if (f.kind == "level") lattice.origin.z = f.level, anchored = true;
+    if (f.kind != "level") continue;
+    lattice.origin.z = f.level;
+    anchored = true;
+    if (rests_on_its_rows(scene)) lattice.row_shift = surface_row_shifts(scene.numerics.smoothing_ratio, scene.dimensions);
   }
   if (scene.dimensions == 2) lattice.origin.y = -0.5 * scene.dp;
   return lattice;

@@ -58,7 +58,7 @@ std::vector<Vec3d> lattice_points(const ColumnIntervals& inside, const FillSpace
         const std::int32_t k0 = std::max(low, s.lattice.first_at_or_above(2, std::max(inside.interval[k].lower, s.domain.lower.z)));
         for (std::int32_t m = k0; m <= high && s.lattice.coordinate(2, m) < inside.interval[k].upper; ++m) {
           if (s.lattice.coordinate(2, m) < inside.interval[k].lower) continue;
-          const Vec3d p = s.lattice.point({s.columns.i0 + i, s.columns.j0 + j, m});
+          const Vec3d p = s.lattice.place({s.columns.i0 + i, s.columns.j0 + j, m});
           if (is_clear(p, parts, s.lattice)) out.push_back(p);
         }
       }

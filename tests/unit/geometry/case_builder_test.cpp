@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "particles/surface_rows.hpp"
 #include "support.hpp"
 
 namespace gdesp::geometry {
@@ -154,6 +155,39 @@ TEST(CaseBuilder, LargeCoordinatesChangeNothing) {
     ASSERT_NEAR(a.boundary.depth[k], b.boundary.depth[k], 2e-4);
   }
   for (const auto& v : b.walls.vertex) EXPECT_LT(std::abs(v.x), 1000.0);
+}
+
+// Water and walls in rows whose shifts are those of sph.surface-rows, with the pressure of the level.
+TEST(CaseBuilder, RowsOfALakeStandWhereTheyRest) {
+  const Folder folder;
+  const std::string name = folder.file("hill.asc");
+  write_esri_ascii(field(0.0, 0.0, 10.0, 31, 21, [](double x, double y) { return 3.0 * std::sin(0.05 * x) * std::cos(0.04 * y); }), name, 6);
+  Scene s;
+  s.dp = 0.5;
+  s.terrain.files = {name};
+  FluidFill fill;
+  fill.level = 0.5;
+  s.fluid.fill = {fill};
+  const std::vector<double> shift = surface_row_shifts(s.numerics.smoothing_ratio, 3);
+  BuildReport report;
+  const Case rests = build_case(s, report);
+  ASSERT_EQ(rests.fluid.pressure.size(), rests.fluid.position.size());
+  std::set<double> rows;
+  for (std::size_t i = 0; i < rests.fluid.position.size(); ++i) {
+    const double z = rests.fluid.position[i].z;
+    rows.insert(std::round(1e9 * z) / 1e9);
+    ASSERT_NEAR(rests.fluid.pressure[i], 9810.0 * (fill.level - z), 0.02);
+  }
+  ASSERT_GT(rows.size(), 3u);
+  std::size_t k = 0;
+  for (auto row = rows.rbegin(); k < 3; ++row, ++k) EXPECT_NEAR(*row, fill.level + (shift[k] - static_cast<double>(k) - 0.5) * s.dp, 1e-8);
+  const double second = fill.level + (shift[1] - 1.5) * s.dp;
+  EXPECT_TRUE(std::any_of(rests.boundary.position.begin(), rests.boundary.position.end(), [&](const Vec3d& p) { return std::abs(p.z - second) < 1e-8; }))
+      << "the walls beside them too";
+  s.numerics.walls = "dynamic";
+  const Case lattice = build_case(s, report);
+  EXPECT_TRUE(lattice.fluid.pressure.empty());
+  for (const Vec3d& p : lattice.fluid.position) ASSERT_NEAR(std::remainder((fill.level - p.z) / s.dp - 0.5, 1.0), 0.0, 1e-9);
 }
 
 // Depth and normal of terrain walls against the plane they come from.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "particles/surface_rows.hpp"
 #include "support.hpp"
 
 namespace gdesp::geometry {
@@ -34,6 +35,14 @@ Scene bowls(const Folder& folder, double dp) {
 
 /// Volume of a bowl z = 20 r^2 / 2500 below z = level: pi 2500 level^2 / 40.
 double bowl_volume(double level) { return std::acos(-1.0) * 2500.0 * level * level / 40.0; }
+
+/// The lattice point of a particle that stands in a row below the level (m).
+Vec3d on_lattice(Vec3d p, double level, double dp) {
+  static const std::vector<double> shift = surface_row_shifts(1.5, 3);
+  const double row = std::round((level - p.z) / dp - 0.5);
+  if (row >= 0.0 && row < static_cast<double>(shift.size())) p.z -= shift[static_cast<std::size_t>(row)] * dp;
+  return p;
+}
 
 TEST(WaterFill, OnlyTheConnectedBasin) {
   const Folder folder;
@@ -76,7 +85,7 @@ TEST(WaterFill, TheWaterSurfaceLiesAtTheLevel) {
   const Case c = build_case(bowls(folder, 2.0), report);
   double top = -1e9;
   for (const auto& p : c.fluid.position) top = std::max(top, p.z + c.offset.z);
-  EXPECT_NEAR(top, 10.0 - 1.0, 1e-9);   // centre of the uppermost cell
+  EXPECT_NEAR(top, 10.0 - 1.0 + 2.0 * surface_row_shifts(1.5, 3)[0], 1e-9);   // centre of the uppermost cell, and where its row rests
   EXPECT_NEAR(c.still_water_level + c.offset.z, 10.0, 1e-9);
 }
 
@@ -88,9 +97,10 @@ TEST(WaterFill, FluidAndWallsCompleteTheLattice) {
   const auto key = [](const Vec3d& p) {
     return std::array<long, 3>{std::lround(p.x / 1e-3), std::lround(p.y / 1e-3), std::lround(p.z / 1e-3)};
   };
+  const auto lattice = [&](const Vec3d& p) { return on_lattice(p, c.still_water_level, 2.0); };
   std::vector<std::array<long, 3>> all;
-  for (const auto& p : c.fluid.position) all.push_back(key(p));
-  for (const auto& p : c.boundary.position) all.push_back(key(p));
+  for (const auto& p : c.fluid.position) all.push_back(key(lattice(p)));
+  for (const auto& p : c.boundary.position) all.push_back(key(lattice(p)));
   std::sort(all.begin(), all.end());
   EXPECT_EQ(std::adjacent_find(all.begin(), all.end()), all.end());   // nothing twice
   std::size_t missing = 0;
@@ -98,7 +108,7 @@ TEST(WaterFill, FluidAndWallsCompleteTheLattice) {
     for (int dx = -2; dx <= 2; ++dx) {
       for (int dy = -2; dy <= 2; ++dy) {
         for (int dz = -2; dz <= 0; ++dz) {
-          const Vec3d q = p + Vec3d{2.0 * dx, 2.0 * dy, 2.0 * dz};
+          const Vec3d q = lattice(p) + Vec3d{2.0 * dx, 2.0 * dy, 2.0 * dz};
           missing += !std::binary_search(all.begin(), all.end(), key(q));
         }
       }
@@ -122,7 +132,8 @@ TEST(WaterFill, BedThroughLatticePoints) {
   const Case c = build_case(s, report);
   std::vector<std::array<long, 3>> all;
   for (const auto* list : {&c.fluid.position, &c.boundary.position}) {
-    for (const auto& p : *list) {
+    for (const auto& placed : *list) {
+      const Vec3d p = on_lattice(placed, 5.0, s.dp);
       if (std::abs(p.x - 20) < 8 && std::abs(p.y - 20) < 8 && p.z > -5.0) all.push_back({std::lround(p.x * 1e3), std::lround(p.y * 1e3), std::lround(p.z * 1e3)});
     }
   }
