@@ -207,7 +207,10 @@ TEST(FarLakeBehindParticles, stays_at_rest_in_space) {
   run->advance_to(1.0);
   EXPECT_LT(std::abs(run->bodies()[0].centre.x), 0.015 * depth);
   EXPECT_NEAR(run->diagnostics().far_lake_mass, density * 3.0 * depth * width, 1e-9);
-  EXPECT_NEAR(run->bodies()[0].force.x, 0.5 * density * g * width * depth * depth, 0.1 * 0.5 * density * g * width * depth * depth);
+  // What presses the foot of the wall through the floor's particles under it counts for the floor, about one spacing of the depth: at 8, 10,
+  // 15, 20 rows the force is 12.2, 10.2, 6.8, 5.3 % too small. (The bound was 10 % at 10 rows while it was 9.9 %, before decision 0053.)
+  const double thrust = 0.5 * density * g * width * depth * depth;
+  EXPECT_NEAR(run->bodies()[0].force.x, thrust, 1.2 * dp / depth * thrust);
 }
 
 }  // namespace
