@@ -6,7 +6,7 @@
 //   to 1 at 0.75 (a grain out of the water feels none). Water particle a takes the exact opposite of its term,
 //     F_ia = -V_i u_a { [(w/N_i)(p_ia - P_i) + w' max(P_i, 0)] grad_i W_ia + (w/N_i) rho g W_ia }.
 //   V: volume [m3]; P: pressure [Pa]; W [1/m3]; S_wall,a = sum_w V_w W_aw over walls; F [N]. In still water p_ia = P_i and
-//   F = -rho g V exactly, anywhere.
+//   F = -rho g V exactly where w = 1; not in the edges of deep tanks (docs/decisions/0047).
 //   The volume is withdrawn from the water with the same weights, eps_a = 1 - sum_i V_i (w/N_i) W_ai/(1 - S_wall,a)
 //   (coupling.porosity), and the water's own pressure force takes the mixture pressure
 //     Pi_a = eps_a P_a + sum_i V_i [(w/N_i)(P_i + rho g.(r_a - r_i)) - w' max(P_i, 0)] W_ai/(1 - S_wall,a)

@@ -10,7 +10,7 @@
 namespace gdesp::dem {
 namespace {
 
-constexpr double restitution = 0.5;    // less, and the damping is too stiff for the step: spins go on for ever (measured at 0.2)
+constexpr double restitution = 0.5;    // of a scene by default
 constexpr double step_share = 0.2;     // of the critical time
 constexpr double rest_speed = 1.0e-3;  // sqrt(g d)
 constexpr double longest = 10.0;       // sqrt(2 H / g)

@@ -10,19 +10,12 @@
 namespace gdesp::geometry {
 namespace {
 
-constexpr double least_depth = 0.05;   // dp: a wall particle is never reported on or above the surface
-
 void add(BoundaryTable& out, const Vec3d& p, const Vec3d& normal, double depth, std::int32_t body, bool no_slip) {
   out.position.push_back(p);
   out.normal.push_back(static_cast<Vec3f>(normal));
   out.depth.push_back(static_cast<float>(depth));
   out.body.push_back(body);
   out.friction.push_back(no_slip ? 1.0f : 0.0f);
-}
-
-/// m, of the particle of a band point below the surface.
-double placed_depth(const BandPoint& b, const Lattice& lattice) {
-  return std::max(-b.distance - b.normal.z * lattice.shift(b.at.z), least_depth * lattice.dp);
 }
 
 /// Coordinates along one axis of a tank: layers before its lower face, points fitted between, layers after its upper face.
@@ -48,9 +41,8 @@ bool inside_other_tank(const SceneParts& parts, const WallPart* own, const Vec3d
 }
 
 void add_one_tank(const WallPart& tank, const SceneParts& parts, const Lattice& lattice, BoundaryTable& out) {
-  static const char* const face[3][2] = {{"x-", "x+"}, {"y-", "y+"}, {"bottom", "top"}};
   std::vector<double> ticks[3];
-  for (int a = 0; a < 3; ++a) ticks[a] = tank_ticks(a, tank, lattice, !is_open(tank, face[a][0]), !is_open(tank, face[a][1]));
+  for (int a = 0; a < 3; ++a) ticks[a] = tank_ticks(a, tank, lattice, !is_open(tank, tank_face[2 * a]), !is_open(tank, tank_face[2 * a + 1]));
   const Vec3d lo = tank.tank.lower, hi = tank.tank.upper;
   for (const double x : ticks[0]) {
     for (const double y : ticks[1]) {
@@ -60,7 +52,7 @@ void add_one_tank(const WallPart& tank, const SceneParts& parts, const Lattice& 
         bool no_slip = false;   // what stands behind planes of symmetry alone lets the fluid slip
         for (int a = 0; a < 3; ++a) {
           inward[a] = p[a] < lo[a] ? lo[a] - p[a] : (p[a] > hi[a] ? hi[a] - p[a] : 0.0);
-          no_slip = no_slip || (tank.no_slip && inward[a] != 0.0 && !is_symmetry(tank, face[a][inward[a] > 0.0 ? 0 : 1]));
+          no_slip = no_slip || (tank.no_slip && inward[a] != 0.0 && !is_symmetry(tank, tank_face[2 * a + (inward[a] > 0.0 ? 0 : 1)]));
         }
         const double depth = norm(inward);
         if (depth == 0.0 || inside_other_tank(parts, &tank, p)) continue;
@@ -171,12 +163,11 @@ void add_body_layers(const SolidPart& body, std::int32_t number, const Lattice& 
 }
 
 TriangleMesh tank_faces(const WallPart& tank) {
-  static const char* const face[6] = {"x-", "x+", "y-", "y+", "bottom", "top"};
   TriangleMesh box = box_mesh(tank.tank), out;   // box_mesh lists its faces in the same order, two triangles each
   flip(box);
   out.vertex = box.vertex;
   for (int f = 0; f < 6; ++f) {
-    if (is_open(tank, face[f])) continue;
+    if (is_open(tank, tank_face[f])) continue;
     out.triangle.push_back(box.triangle[2 * f]);
     out.triangle.push_back(box.triangle[2 * f + 1]);
   }

@@ -23,7 +23,6 @@ constexpr double leash = 1.0;            // from where a particle was born: a la
 constexpr double look = 0.25;            // way after which the surface is looked at again
 constexpr double farthest = 5.0;         // from the surface
 constexpr double misfit = 0.25;          // largest error of a depth at which a particle still belongs to its layer
-constexpr double least_depth = 0.05;     // of lattice points that stay
 
 class Layers {
  public:
@@ -91,8 +90,7 @@ class Layers {
       const Vec3d normal = static_cast<Vec3d>(band[i].normal);
       const double depth = -band[i].distance;
       if (kept[i]) {
-        const double placed = depth - normal.z * r_.lattice.shift(band[i].at.z);
-        if (is_in_layers(band[i])) add({r_.lattice.place(band[i].at), normal, std::max(placed, least_depth * dp_), band[i].material}, -1);
+        if (is_in_layers(band[i])) add({r_.lattice.place(band[i].at), normal, placed_depth(band[i], r_.lattice), band[i].material}, -1);
         continue;
       }
       for (int k = 0; k < boundary_layer_count; ++k) {

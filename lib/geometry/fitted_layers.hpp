@@ -11,6 +11,7 @@
 // Zaleski (2000), J. Comput. Phys. 164, 228, doi:10.1006/jcph.2000.6567.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "geometry/signed_distance.hpp"
@@ -19,6 +20,12 @@ namespace gdesp::geometry {
 
 constexpr int boundary_layer_count = 3;
 constexpr double fitted_band = 4.0;   ///< dp: half width of the band that fit_layers needs
+constexpr double least_depth = 0.05;  ///< dp: a wall particle is never reported on or above the surface
+
+/// m, below the surface: the particle of a band point, where its row stands (Lattice::place).
+inline double placed_depth(const BandPoint& b, const Lattice& lattice) {
+  return std::max(-b.distance - b.normal.z * lattice.shift(b.at.z), least_depth * lattice.dp);
+}
 
 struct LayerPoint {
   Vec3d position;        ///< m

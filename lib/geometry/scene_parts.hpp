@@ -25,6 +25,9 @@ struct SolidPart {
   bool no_slip = false;
 };
 
+/// Names of a tank's faces: of axis a the lower is number 2 a, the upper 2 a + 1.
+inline constexpr const char* tank_face[6] = {"x-", "x+", "y-", "y+", "bottom", "top"};
+
 /// A wall at rest: a tank (inner box, open faces), a closed solid, or a sheet that is solid below.
 struct WallPart {
   std::string name;

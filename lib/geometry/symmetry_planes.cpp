@@ -23,11 +23,10 @@ struct Face {
 };
 
 std::vector<Face> symmetry_faces(const SceneParts& parts) {
-  static const char* const name[6] = {"x-", "x+", "y-", "y+", "bottom", "top"};
   std::vector<Face> faces;
   for (const WallPart& wall : parts.walls) {
     for (int f = 0; f < 6; ++f) {
-      if (!is_symmetry(wall, name[f])) continue;
+      if (!is_symmetry(wall, tank_face[f])) continue;
       faces.push_back({f / 2, (f % 2 ? wall.tank.upper : wall.tank.lower)[f / 2], wall.tank});
     }
   }
