@@ -103,7 +103,7 @@ GrainSystem<Exec>::GrainSystem(const Exec& exec, const Domain& domain, const Gra
       contacts_(exec, contact.rolling_friction > 0.0), position_(exec), id_(exec), group_(exec), now_(exec),
       next_(exec), velocity_(exec), spin_(exec), start_(exec), quiet_until_(exec),
       drag_impulse_(exec),
-      measure_(exec), held_(exec) {
+      measure_(exec), batch_(exec), held_(exec) {
   const GrainStart state = make_grain_start(domain, grains);
   largest_radius_ = state.largest_radius;
   smallest_radius_ = state.smallest_radius;
@@ -371,15 +371,17 @@ void GrainSystem<Exec>::advance(double dt, int substeps) {
     const std::vector<BodyMoment> now = moments(static_cast<double>(k) / substeps, dt);
     if (stale(now)) rebuild(now, !fluid_.drag_coefficient);  // sorting costs a tenth of listing
     const int batch = foreseen_substeps(dt, k, substeps);
-    double half_before = half_before_;
-    for (int b = 0; b < batch; ++b, half_before = 0.5 * h) {
-      const HalfSteps half{static_cast<float>(half_before), static_cast<float>(0.5 * h)};
-      if (laws_.kind == ContactLawKind::hertz) {
-        run(laws_.hertz, laws_.hertz_wall, half, b);
-      } else {
-        run(laws_.linear, laws_.linear_wall, half, b);
+    batch_.give([&] {
+      double half_before = half_before_;
+      for (int b = 0; b < batch; ++b, half_before = 0.5 * h) {
+        const HalfSteps half{static_cast<float>(half_before), static_cast<float>(0.5 * h)};
+        if (laws_.kind == ContactLawKind::hertz) {
+          run(laws_.hertz, laws_.hertz_wall, half, b);
+        } else {
+          run(laws_.linear, laws_.linear_wall, half, b);
+        }
       }
-    }
+    });
     const int taken = take_measures(batch, h);
     half_before_ = 0.5 * h;
     substeps_ += taken;

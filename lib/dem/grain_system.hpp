@@ -11,6 +11,7 @@
 #include "dem/contact_parameters.hpp"
 #include "dem/contact_rows.hpp"
 #include "dem/wall_contacts.hpp"
+#include "exec/batch.hpp"
 #include "particles/particle_tables.hpp"
 
 namespace gdesp::dem {
@@ -156,6 +157,7 @@ class GrainSystem {
   FluidOnGrains fluid_;                           ///< pointers of the caller, and drag_impulse_
   Array<Vec3d, Exec> drag_impulse_;
   Array<exec::Largest, Exec> measure_;            ///< two a sub-step of a batch: of the walls, of the grains
+  exec::Batch<Exec> batch_;                       ///< sub-steps between two looks at their measures
   Array<std::int32_t, Exec> held_;
 };
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Memory, devices and scratch of the CUDA back end. Plain allocations only: no managed memory.
 #include <algorithm>
+#include <cstdlib>
+#include <string_view>
 
 #include "exec/array.hpp"
+#include "exec/batch.hpp"
 #include "exec/cuda/parallel.cuh"
 
 namespace gdesp::exec {
@@ -103,6 +106,45 @@ void* cub_scratch(const Cuda& exec, std::size_t bytes) {
 void* result_slot(const Cuda& exec, std::size_t bytes) {
   thread_local Scratch scratch;
   return scratch.grow(exec, std::max<std::size_t>(bytes, 256));
+}
+
+// A captured batch differs from the one before in pointers and counts as a rule, so that the graph at hand is updated;
+// when its number of passes differs too, it is made anew.
+bool begin_capture(const Cuda& exec) {
+  static const bool wanted = [] {
+    const char* set = std::getenv("GDESP_CUDA_GRAPHS");
+    return !set || std::string_view(set) != "0";
+  }();
+  // Relaxed: kernels that are loaded when they are first used may allocate.
+  if (wanted) check(cudaStreamBeginCapture(stream(exec), cudaStreamCaptureModeRelaxed), "capturing a batch");
+  return wanted;
+}
+void drop_capture(const Cuda& exec) {
+  cudaGraph_t captured = nullptr;
+  cudaStreamEndCapture(stream(exec), &captured);
+  if (captured) cudaGraphDestroy(captured);
+  cudaGetLastError();
+}
+void launch_captured(const Cuda& exec, void*& graph) {
+  cudaGraph_t captured = nullptr;
+  check(cudaStreamEndCapture(stream(exec), &captured), "capturing a batch");
+  auto ready = static_cast<cudaGraphExec_t>(graph);
+  cudaGraphExecUpdateResultInfo result;
+  if (ready && cudaGraphExecUpdate(ready, captured, &result) != cudaSuccess) {
+    cudaGetLastError();
+    cudaGraphExecDestroy(ready);
+    ready = nullptr;
+  }
+  const cudaError_t made = ready ? cudaSuccess : cudaGraphInstantiate(&ready, captured, 0);
+  cudaGraphDestroy(captured);
+  graph = made == cudaSuccess ? ready : nullptr;
+  check(made, "making a graph of a batch");
+  check(cudaGraphLaunch(ready, stream(exec)), "giving a batch");
+}
+void forget_graph(const Cuda& exec, void* graph) {
+  if (!graph) return;
+  cudaStreamSynchronize(stream(exec));
+  cudaGraphExecDestroy(static_cast<cudaGraphExec_t>(graph));
 }
 
 }  // namespace detail
