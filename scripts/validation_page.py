@@ -125,8 +125,8 @@ Written by `scripts/validate` (`--help`). Each row compares one number of a run 
 the metric's own terms, accepted when it is within the band that stood in `data/cases/NAME/measure.py` before the run. The whole table,
 with the errors at every resolution, is [validation.tsv](validation.tsv); this page is made from it. `order`: observed order of convergence
 of the value over the three finest resolutions, `error bar`: its grid convergence index (Celik et al. 2008); "none" where the values do not
-converge monotonically. `order of error`: slope of log error over log dp, the same three. Cost: wall seconds of the simulation times
-threads. dp in metres. What was tried for the rows that are not accepted is in [decisions/0031](decisions/0031-water-options-measured.md); of dry grains in [decisions/0045](decisions/0045-dry-grains-against-experiments.md).
+converge monotonically. `order of error`: slope of log error over log dp, the same three. Cost: processor seconds of the
+simulation (rows older than commit 3cd2543: wall seconds times threads, on a shared machine). dp in metres. What was tried for the rows that are not accepted is in [decisions/0031](decisions/0031-water-options-measured.md); of dry grains in [decisions/0045](decisions/0045-dry-grains-against-experiments.md).
 
 """
 
