@@ -2,6 +2,7 @@
 // What the guard of a run asks of the water: who is deepest inside a wall, and another sound speed.
 #include "sph/fluid_system.hpp"
 #include "sph/tait.hpp"
+#include "sph/wall_guard.hpp"
 
 namespace gdesp::sph {
 namespace {
@@ -16,7 +17,7 @@ struct DepthInWall {
     const float weight = w[0];
     const Vec3f normal{w[8], w[12], w[16]};
     // Between opposite walls the mean says nothing.
-    if (!(weight > 1.0e-9f) || norm(normal) < 0.8f * weight) return none;
+    if (!(weight > least_guard_weight) || norm(normal) < 0.8f * weight) return none;
     const float depth = -w[4] / weight;
     return depth > 0.0f ? DeepestInWall{depth, id[s]} : none;
   }

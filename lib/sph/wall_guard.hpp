@@ -5,8 +5,9 @@
 //   s and the normal n are means over the wall particles near by, weighted by (1 - |r - f_w|/(2 dp))^6, of
 //     s_w = (r - f_w) . n_w,   f_w = r_w + depth_w n_w,
 //   f_w: the point of the surface that the wall particle lies below. The nearest piece of the surface decides at edges.
-//   Where s_w < 0 the weight has the factor max(0, min(1, 2 - 2 |r - r_w|/dp)): water inside a wall has a particle of the wall within
-//   0.87 dp, water that is only behind the plane of a ridge's far face has not (without it notches threw water at c/20).
+//   The weight has the factor max(0, min(1, max(2 - 2 |r - r_w|/dp, 1 + 5 s_w/dp))): water inside a wall has a particle of the wall within
+//   0.87 dp, water that is only behind the plane of a ridge's far face has not (without it notches threw water at c/20); water a hair behind
+//   a plane touches it. A surface that is hardly in reach (sum of weights below 1e-4) has no say (the crest of a dam threw water off its face).
 //   (Weights by |r - r_w| let the crest of a dam, whose plane lies above, speak for water beside its face.) v_n, v_w,n: normal velocity of water and wall [m/s]; c: sound speed.
 //   The first tenth of dp behind the surface is not pushed back: s is a mean over facets, and still water that touched a wall was thrown off it
 //   (8 % of sqrt(g H), single particles). In ordinary flow the bound lies near c/6 and never acts; it is what keeps a particle from slipping between wall
@@ -30,7 +31,6 @@ GDESP_HD inline void add_wall_guard(float inverse_reach, const Real r[3], const 
                                     const Real v[3], WallGuardSums<Real>& sums) {
   using real::max;
   using real::min;
-  using real::select;
   using real::sqrt;
   const Real x = r[0] - depth * n[0], y = r[1] - depth * n[1], z = r[2] - depth * n[2];
   const Real t = max(Real(0.0f), Real(1.0f) - sqrt(x * x + y * y + z * z) * Real(inverse_reach));
@@ -38,8 +38,9 @@ GDESP_HD inline void add_wall_guard(float inverse_reach, const Real r[3], const 
   // A wall particle without a normal (zero) has no say.
   const Real s = x * n[0] + y * n[1] + z * n[2];
   const Real apart = sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]) * Real(4.0f * inverse_reach);
-  const Real inside = max(Real(0.0f), min(Real(1.0f), Real(2.0f) - apart));
-  const Real w = t3 * t3 * (n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) * select(s < Real(0.0f), inside, Real(1.0f));
+  const Real touches = Real(1.0f) + s * Real(10.0f * inverse_reach);
+  const Real here = max(Real(0.0f), min(Real(1.0f), max(Real(2.0f) - apart, touches)));
+  const Real w = t3 * t3 * (n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) * here;
   sums.weight += w;
   sums.distance += w * s;
   sums.nx += w * n[0];
@@ -53,9 +54,11 @@ struct NearWall {
   float weight, distance, nx, ny, nz, wall_speed;  ///< sums as gathered
 };
 
+inline constexpr float least_guard_weight = 1.0e-4f;  ///< of a surface that has a say
+
 /// v (m/s) with the bound applied for a step dt (s); c: sound speed (m/s); dp: particle spacing (m).
 GDESP_HD inline Vec3f guarded_velocity(const Vec3f& v, const NearWall& wall, float dt, float c, float dp) {
-  if (!(wall.weight > 1.0e-9f)) return v;
+  if (!(wall.weight > least_guard_weight)) return v;
   Vec3f n{wall.nx, wall.ny, wall.nz};
   const float length = norm(n);
   if (length < 0.3f * wall.weight) return v;  // opposite walls: no direction is out

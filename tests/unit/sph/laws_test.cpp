@@ -273,6 +273,20 @@ TEST(WallGuard, far_face_of_a_ridge_does_not_speak_for_water_on_this_side) {
   EXPECT_NEAR(within.distance / within.weight, -9.6f, 1e-4f);
 }
 
+TEST(WallGuard, water_that_touches_a_face_is_not_thrown_by_the_crest_above) {
+  // Alpe Gera, dp = 8 m: a centimetre behind the dam's oblique face, whose nearest particle is 1.04 dp away; the crest is 5.5 m above.
+  const float v[3] = {0, 0, 0}, up[3] = {0.0f, 0.0f, 1.0f}, out[3] = {-0.31f, 0.95f, 0.0f};
+  const float crest[3] = {-0.1f, 7.75f, 1.94f}, face[3] = {-8.1f, -0.25f, 1.94f};
+  for (bool beside_face : {true, false}) {
+    WallGuardSums<float> sums;
+    add_wall_guard(1.0f / 16.0f, crest, up, 7.44f, v, sums);
+    if (beside_face) add_wall_guard(1.0f / 16.0f, face, out, 2.28f, v, sums);
+    const Vec3f free{0.3f, -0.1f, 0.2f};
+    const Vec3f kept = guarded_velocity(free, {sums.weight, sums.distance, sums.nx, sums.ny, sums.nz, sums.wall_speed}, 0.0145f, 400.0f, 8.0f);
+    EXPECT_LT(norm(kept - free), 0.25f) << "the crest alone gave 20 m/s";
+  }
+}
+
 TEST(WallPair, a_wall_above_still_water_neither_pushes_nor_pulls) {
   EXPECT_EQ(pressing_wall(-0.3f, 0.3f), -0.3f) << "the linear field of still water: the pair's sum is zero";
   EXPECT_FLOAT_EQ(pressing_wall(-0.1f, 0.3f), -0.3f) << "the second row is not pushed off a wall that has air beside it";
