@@ -33,9 +33,9 @@ void visit_near(const ColumnGrid& grid, std::size_t s, double distance, const Vi
 
 /// Whether particle s lies on a wall with no other water over it.
 bool is_single_layer(const ColumnGrid& grid, std::size_t s, double dp, const WallSurface& walls) {
-  if (!walls.distance(grid.position(s), dp)) return false;
+  if (!walls.nearest(grid.position(s), dp)) return false;
   bool single = true;
-  visit_near(grid, s, 1.5 * dp, [&](std::size_t t) { single = single && walls.distance(grid.position(t), dp).has_value(); });
+  visit_near(grid, s, 1.5 * dp, [&](std::size_t t) { single = single && walls.nearest(grid.position(t), dp).has_value(); });
   return single;
 }
 
@@ -75,7 +75,10 @@ std::vector<BankParticle> find_bank_particles(const ColumnGrid& grid, const std:
       const Vec3d& p = grid.position(s);
       const double height = p.z + 0.5 * at.dp - at.still_water_level;
       if (height <= 0.0 || !counts[s]) continue;
-      if (!walls.empty() && !walls.distance(p, at.contact)) continue;
+      if (!walls.empty()) {
+        const std::optional<Vec3d> bank = walls.nearest(p, at.contact);
+        if (!bank || bank->z < at.still_water_level - at.dp) continue;
+      }
       mine.push_back({p, height});
     }
 #pragma omp critical

@@ -5,7 +5,9 @@
 //   R = max z_i + dp/2 - z_still  over particles i that
 //     - belong to the connected main body (connected_water.hpp: chains of neighbours within 1.5 dp, at least one particle
 //       thick, of water whose density is whole; drops, spray, threads and torn water are splash and reported apart),
-//     - touch a wall at rest (terrain, tank): centre within 2.6 dp (the support of the smoothing) of its surface.
+//     - touch a wall at rest (terrain, tank): centre within 2.6 dp (the support of the smoothing) of its surface,
+//     - and touch it where it was dry: the nearest point of that surface lies no deeper than dp below still water. (A wave that passes
+//       over a bed 2 dp deep has not climbed anything yet.)
 // A tongue thinner than dp is there too: a single layer of whole particles on the wall (centre within dp of it, no other water over it within 1.5 dp),
 // drawn apart, so that a film of thickness e has them (dp/e) dp apart along the flow. Such a particle belongs to the sheet when it is nearer than 2.6 dp
 // to particles of it: to one in the plane, to three in space. So the film is followed down to a thickness of 0.4 dp; drops on the bank are

@@ -91,10 +91,10 @@ void WallSurface::build(std::uint32_t node, std::uint32_t first, std::uint32_t c
   build(child + 1, first + count / 2, count - count / 2);
 }
 
-std::optional<double> WallSurface::distance(const Vec3d& p, double limit) const {
+std::optional<Vec3d> WallSurface::nearest(const Vec3d& p, double limit) const {
   if (empty()) return std::nullopt;
   double best2 = limit * limit;
-  bool found = false;
+  std::optional<Vec3d> best;
   std::uint32_t stack[64];
   int depth = 0;
   stack[depth++] = 0;
@@ -108,14 +108,14 @@ std::optional<double> WallSurface::distance(const Vec3d& p, double limit) const 
     }
     for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
       const Triangle& t = triangle_[k];
-      const Vec3d d = p - nearest_on_triangle(p, t.a, t.b, t.c);
+      const Vec3d here = nearest_on_triangle(p, t.a, t.b, t.c), d = p - here;
       if (dot(d, d) <= best2) {
         best2 = dot(d, d);
-        found = true;
+        best = here;
       }
     }
   }
-  return found ? std::optional(std::sqrt(best2)) : std::nullopt;
+  return best;
 }
 
 std::optional<double> WallSurface::height(double x, double y) const {

@@ -17,8 +17,8 @@ class WallSurface {
   explicit WallSurface(const TriangleTable& walls);
 
   bool empty() const { return triangle_.empty(); }
-  /// Distance from p to the nearest triangle, m, if it is at most `limit`; else nullopt.
-  std::optional<double> distance(const Vec3d& p, double limit) const;
+  /// The point of the walls that is nearest to p, if it is at most `limit` m away; else nullopt.
+  std::optional<Vec3d> nearest(const Vec3d& p, double limit) const;
   /// Elevation of the ground at (x, y), m: of the highest triangle that faces up (the lid of a closed tank does not); of
   /// the highest of any where none does; nullopt where there is none at all.
   std::optional<double> height(double x, double y) const;
