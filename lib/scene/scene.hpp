@@ -133,7 +133,7 @@ struct FloatingBody {
 /// Contact law of grains with each other, with walls and bodies.
 struct Contact {
   std::string law = "hertz";              ///< "hertz" (Hertz-Mindlin) | "linear"
-  double youngs_modulus = 1.0e7;          ///< Pa, hertz
+  double youngs_modulus = 0.0;            ///< Pa, hertz; 0: chosen for the scene
   double poisson_ratio = 0.3;
   double stiffness = 1000.0;              ///< N/m, linear, normal
   double stiffness_ratio = 0.2857142857;  ///< tangential / normal, linear

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "scene_economy.hpp"
 #include "sph/tait.hpp"
 
 namespace gdesp::tool {
@@ -209,8 +210,18 @@ dem::ContactParameters contact_parameters(const Contact& c) {
   return p;
 }
 
+void choose_youngs_modulus(SimulationInput& input, double expected_speed) {
+  double& E = input.contact.youngs_modulus;
+  if (E > 0.0) return;
+  E = 1.0e7;
+  const bool weighs = !input.grains.position.empty() && norm(input.fluid_parameters.gravity) > 0.0;
+  if (weighs && input.contact.law == dem::ContactLawKind::hertz) E = contact_softness(input, expected_speed).stiffness;
+}
+
 SimulationInput case_to_input(Case& c) {
   SimulationInput input;
+  const bool chooses = !(c.scene.contact.youngs_modulus > 0.0) && !c.grains.position.empty();
+  const double speed = chooses && norm(c.scene.gravity) > 0.0 ? expected_speed(c).speed : 0.0;
   set_domain(c, input);
   input.fluid_parameters = fluid_parameters(c);
   input.contact = contact_parameters(c.scene.contact);
@@ -221,6 +232,7 @@ SimulationInput case_to_input(Case& c) {
   set_density(input.fluid, input.fluid_parameters);
   input.boundary = std::move(c.boundary);
   input.grains = std::move(c.grains);
+  choose_youngs_modulus(input, speed);
   input.walls = c.walls;
   input.bodies = c.bodies;
   return input;

@@ -27,6 +27,10 @@ bool viscosity_is_without_effect(const Scene& scene);
 /// The contact of grains as the solver has it.
 dem::ContactParameters contact_parameters(const Contact& contact);
 
+/// Where contact.youngs_modulus is 0 (open), sets what contact_softness() proposes for grains that have a weight; else 10 MPa.
+/// Needs the input's grains, gravity and dimensions; expected_speed (m/s): of impacts.
+void choose_youngs_modulus(SimulationInput& input, double expected_speed);
+
 /// Everything the solver needs. Lengths and times as in the scene; the sound speed is numerics.sound_speed or ten
 /// times the expected speed (density errors below about 1 %, Monaghan 1994, doi:10.1006/jcph.1994.1034).
 /// The particle tables are moved out of `c`. Throws Error(input) for an option the solver does not have.

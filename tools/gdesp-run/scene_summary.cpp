@@ -97,7 +97,7 @@ void describe_grains(SceneSummary& s, const Scene& scene, const SimulationInput&
   model(s, "grains", true, count_text(n) + " grains, diameter " + number_text(d.low) +
                                (d.high > d.low ? " to " + number_text(d.high) : "") + " m");
   model(s, "contact", true,
-        (c.law == "hertz" ? "Hertz-Mindlin, E " + number_text(c.youngs_modulus) + " Pa, nu " + number_text(c.poisson_ratio)
+        (c.law == "hertz" ? "Hertz-Mindlin, E " + number_text(in.contact.youngs_modulus) + " Pa" + (c.youngs_modulus > 0.0 ? "" : " (as overlaps ask)") + ", nu " + number_text(c.poisson_ratio)
                           : "linear, k " + number_text(c.stiffness) + " N/m") +
             ", friction " + number_text(c.friction) + ", restitution " + number_text(c.restitution));
   const bool coupled = in.coupling.enabled && !in.fluid.position.empty();
@@ -120,13 +120,13 @@ void describe_bodies(SceneSummary& s, const SimulationInput& in) {
 double grain_step(const Scene& scene, const SimulationInput& in) {
   const Contact& c = scene.contact;
   const bool plane = scene.dimensions == 2;
-  const double line = dem::line_contact_stiffness(0.5 * c.youngs_modulus / (1.0 - c.poisson_ratio * c.poisson_ratio));
+  const double E = in.contact.youngs_modulus, line = dem::line_contact_stiffness(0.5 * E / (1.0 - c.poisson_ratio * c.poisson_ratio));
   double least = INFINITY;
   for (std::size_t i = 0; i < in.grains.position.size(); ++i) {
     const double radius = 0.5 * static_cast<double>(in.grains.diameter[i]), density = in.grains.density[i];
     const double mass = density * (plane ? 3.14159265 * radius * radius : 4.1887902 * radius * radius * radius);
     least = std::min(least, c.law == "hertz" && !plane
-                                ? dem::rayleigh_time(radius, density, c.youngs_modulus, c.poisson_ratio)
+                                ? dem::rayleigh_time(radius, density, E, c.poisson_ratio)
                                 : 0.25 * dem::linear_contact_time(c.law == "hertz" ? line : c.stiffness, 0.5 * mass, c.restitution));
   }
   return in.time.grain_step_share * least;

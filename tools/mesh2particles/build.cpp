@@ -139,7 +139,13 @@ int build(const MeshOptions& o) {
   how.vdb_path = vdb;
   how.on_stage = [](const std::string& stage) { cli::detail(stage + " ..."); };
   how.settler = [&scene](GrainTable& grains, const TriangleTable& walls) {
-    return dem::settle_grains(grains, walls, {contact_parameters(scene.contact), scene.gravity, scene.dimensions});
+    SimulationInput bed;
+    bed.grains = grains;
+    bed.contact = contact_parameters(scene.contact);
+    bed.fluid_parameters.gravity = scene.gravity;
+    bed.fluid_parameters.dimensions = scene.dimensions;
+    choose_youngs_modulus(bed, 0.0);
+    return dem::settle_grains(grains, walls, {bed.contact, scene.gravity, scene.dimensions});
   };
   const Case built = build_or_warn(scene, report, how);
   if (!o.preview.empty()) geometry::write_preview(built, o.preview);

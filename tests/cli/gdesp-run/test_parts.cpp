@@ -14,6 +14,7 @@
 #include "moving_surfaces.hpp"
 #include "output_times.hpp"
 #include "run_files.hpp"
+#include "scene_economy.hpp"
 #include "scene_summary.hpp"
 
 namespace gdesp::tool {
@@ -78,6 +79,22 @@ TEST(CaseToInput, pistons_count_and_gates_do_not) {
   gate.name = "plate";
   c.scene.moving.push_back(gate);
   EXPECT_LT(expected_speed(c).speed, 20.0);
+}
+
+TEST(CaseToInput, a_stiffness_that_is_left_open_keeps_overlaps_small) {
+  Case c = lake_with_slide();
+  EXPECT_EQ(c.scene.contact.youngs_modulus, 0.0) << "by default";
+  const double speed = expected_speed(c).speed;
+  SimulationInput in = case_to_input(c);
+  const ContactSoftness chosen = contact_softness(in, speed);
+  EXPECT_NEAR(std::max(chosen.at_rest / 0.01, chosen.on_impact / 0.05), 1.0, 1e-6);
+  EXPECT_NEAR(chosen.stiffness, in.contact.youngs_modulus, 1e-6 * chosen.stiffness);
+  c = lake_with_slide();
+  c.scene.contact.youngs_modulus = 3.0e6;
+  EXPECT_EQ(case_to_input(c).contact.youngs_modulus, 3.0e6) << "as asked";
+  c = lake_with_slide();
+  c.grains = {};
+  EXPECT_EQ(case_to_input(c).contact.youngs_modulus, 1.0e7) << "bodies alone";
 }
 
 TEST(CaseToInput, every_parameter_arrives) {
