@@ -14,6 +14,7 @@ constexpr double restitution = 0.5;    // of a scene by default
 constexpr double step_share = 0.2;     // of the critical time
 constexpr double rest_speed = 1.0e-3;  // sqrt(g d)
 constexpr double longest = 10.0;       // sqrt(2 H / g)
+constexpr double resting_share = 0.95; // of the grains: the others may rattle in the gaps between those that bear
 
 struct Extent { Vec3d lower, upper; };   // m
 
@@ -40,6 +41,16 @@ double mean_of(const std::vector<float>& values) {
 /// m/s, of the mass.
 double speed_of(const GrainSums& sums) { return sums.mass > 0.0 ? std::sqrt(2.0 * sums.kinetic_energy / sums.mass) : 0.0; }
 
+/// m/s: what `share` of the grains stay below.
+double speed_of_most(const GrainTable& grains, double share) {
+  std::vector<double> speeds;
+  for (const Vec3f& v : grains.velocity) speeds.push_back(std::sqrt(dot(v, v)));
+  if (speeds.empty()) return 0.0;
+  const auto place = speeds.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(speeds.size() - 1));
+  std::nth_element(speeds.begin(), place, speeds.end());
+  return *place;
+}
+
 }  // namespace
 
 Settlement settle_grains(GrainTable& grains, const TriangleTable& walls, const SettlingConditions& conditions) {
@@ -57,16 +68,18 @@ Settlement settle_grains(GrainTable& grains, const TriangleTable& walls, const S
   const double step = system.stable_time_step(step_share), height = std::abs(dot(bed.upper - bed.lower, conditions.gravity)) / gravity;
   const double last = longest * std::sqrt(2.0 * height / gravity), look = std::sqrt(diameter / gravity);
   const int substeps = std::max(1, static_cast<int>(std::ceil(look / step)));
+  const double slow_speed = rest_speed * std::sqrt(gravity * diameter);
   for (bool slow = false; system.time() < last && !out.at_rest;) {
     system.advance(look, substeps);
     out.speed = speed_of(system.sums());
-    const bool now = out.speed < rest_speed * std::sqrt(gravity * diameter);
+    const bool now = out.speed < slow_speed;
     out.at_rest = slow && now;
     slow = now;
   }
   out.time = system.time();
   out.lost = static_cast<std::size_t>(system.lost());
   GrainTable settled = system.table();
+  out.at_rest = out.at_rest || speed_of_most(settled, resting_share) < slow_speed;
   if (conditions.dimensions == 2) for (Vec3d& r : settled.position) r.y = 0.0;
   settled.velocity.clear();
   settled.angular_velocity.clear();

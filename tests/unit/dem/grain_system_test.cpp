@@ -436,19 +436,21 @@ TEST_F(GrainSystemTest, DiscsStayInTheirPlane) {
   EXPECT_NEAR(end.angular_velocity[0].y * 0.01f / end.velocity[0].x, 1.0f, 1e-3f);
 }
 
-// A hopper full of discs under a heavy one: rounding in the normals of its sides must not push any out of the plane.
+// A covered hopper full of discs under a heavy one: rounding in the normals of its sides must not push any out of the plane.
+// (Without the cover a disc pinched under the heavy one may fly over the rim: a matter of the last digit.)
 TEST_F(GrainSystemTest, LoadedDiscsStayInTheirPlane) {
   GrainTable table;
   for (int row = 0; row < 12; ++row)
     for (int k = 0; k <= row; ++k) add_grain(table, {0.5 + 0.0101 * (k - 0.5 * row), 0.003, 0.03 + 0.0088 * row}, 0.01, 2500,
                                              {0.01, 0.2, 0}, {3, 1, 2});
-  add_grain(table, {0.5, 0, 0.2}, 0.1, 20000);
+  add_grain(table, {0.5, 0, 0.183}, 0.1, 20000);
   TriangleTable walls;
   for (const double side : {-1.0, 1.0}) {
     const Vec3d low{0.5 + side * 0.002, -0.1, 0.0103}, high{0.5 + side * 0.1517, -0.1, 0.2681}, across{0, 0.2, 0};
     if (side < 0) add_rectangle(walls, low, low + across, high + across, high);
     else add_rectangle(walls, low, high, high + across, low + across);
   }
+  add_rectangle(walls, {0.34, 0.1, 0.2681}, {0.66, 0.1, 0.2681}, {0.66, -0.1, 0.2681}, {0.34, -0.1, 0.2681});
   ContactParameters p = soft(0.3, 0.5);
   p.youngs_modulus = 1.0e7;   // softer discs, pressed to two thirds of their size, may slip through the mouth
   Grains grains({}, space({0, -0.004, 0}, {1, 0.004, 1}, 0.008, 2), table, p, walls, {0, 0, -9.81});
