@@ -5,6 +5,8 @@
 #include <numeric>
 #include <random>
 
+#include "core/error.hpp"
+#include "exec/batch.hpp"
 #include "exec/parallel.hpp"
 
 namespace gdesp::exec {
@@ -85,6 +87,16 @@ TEST(Lanes, four_i_and_four_j_make_sixteen_pairs) {
   }
   EXPECT_TRUE(HostLanes::any(product > Float16(159.0f)));
   EXPECT_FALSE(HostLanes::any(product > Float16(160.0f)));
+}
+
+TEST(Batch, does_what_it_is_given_once_and_passes_errors_on) {
+  Batch<OpenMP> batch(cpu);
+  int done = 0;
+  for (int k = 0; k < 3; ++k) batch.give([&] { ++done; });
+  EXPECT_EQ(done, 3);
+  EXPECT_THROW(batch.give([] { throw Error(ErrorKind::numerical, "in the middle"); }), Error);
+  batch.give([&] { ++done; });
+  EXPECT_EQ(done, 4);
 }
 
 TEST(Array, counts_its_memory) {
