@@ -138,7 +138,7 @@ std::string GaugeMeasurement::summary() const {
   for (std::size_t k = 0; k < gauge_.size(); ++k) {
     const auto t = arrival(k);
     const bool wet = std::any_of(level_[k].begin(), level_[k].end(), [](double z) { return std::isfinite(z); });
-    text += (text.empty() ? "" : "; ") + gauge_[k].name + (t ? ": arrival at t = " + format_number(std::round(*t * 1e3) / 1e3) + " s" : wet ? ": no arrival" : ": no water there at any time");
+    text += (text.empty() ? "" : "; ") + gauge_[k].name + (t ? ": arrival at t = " + format_number(std::round(*t * 1e3) / 1e3) + " s" : wet ? ": no arrival" : ": no water there at any time (particles are " + format_number(info_.dp) + " m apart)");
   }
   return text;
 }

@@ -223,7 +223,10 @@ class Report {
     const auto section = [&](Measurement* m, const char* heading, const char* caption) {
       if (!m) return;
       page.heading(heading);
-      page.figure(m->figure(), caption);
+      const Figure figure = m->figure();
+      const bool curves = std::any_of(figure.panel.begin(), figure.panel.end(), [](const Panel& p) { return !p.series.empty(); });
+      if (curves || !figure.map.empty()) page.figure(figure, caption);
+      else page.paragraph(m->summary() + ".");
     };
     section(run_up_, "Run-up", "Run-up against time, and its maximum along the shore.");
     section(profile_, "Profiles", "Surfaces of water and slide along a section, at four times.");
