@@ -151,6 +151,21 @@ def summary_text(rows):
     return "At the finest resolution run: " + ", ".join(parts) + ".\n\n" if parts else ""
 
 
+def commits_text(rows):
+    """Which commit most of the runs are of, and which runs are of others."""
+    runs = {(row["case"], row["preset"], row["dp"]): row["made by"].removeprefix("commit ").split(",")[0] or "unknown" for row in rows}
+    if not runs:
+        return ""
+    commits = list(runs.values())
+    most = max(dict.fromkeys(commits), key=commits.count)
+    others = {}
+    for (case, preset, dp), commit in runs.items():
+        if commit != most:
+            others.setdefault(commit, {}).setdefault(f"{case} {preset}", []).append(dp)
+    listed = "; ".join(f"{commit}: " + ", ".join(f"{case} {' '.join(dp)}" for case, dp in of.items()) for commit, of in others.items())
+    return f"Of {len(runs)} runs {commits.count(most)} are of commit {most}" + (f"; of others (dp in metres) {listed}" if listed else "") + ".\n\n"
+
+
 def halved_pairs(rows):
     """(row of `accurate` at about 2 dp, row of `paper` at dp or None where that run failed) of every metric run so."""
     paper = {}
@@ -206,7 +221,7 @@ def budget_text(rows):
 
 
 def write_page(path, cases, rows):
-    text = HEAD + summary_text(rows) + halved_text(rows) + budget_text(rows)
+    text = HEAD + summary_text(rows) + commits_text(rows) + halved_text(rows) + budget_text(rows)
     for case in cases:
         own = [row for row in rows if row["case"].split("/")[0] == case.name]
         pictures = sorted(file.name for file in (path.parent / "validation").glob(f"{case.name}.*.svg"))

@@ -52,6 +52,11 @@ class Table(unittest.TestCase):
                          [("a", "0.04", "accurate", "0.1"), ("a", "0.04", "paper", "0.1"), ("a", "0.02", "accurate", "2"), ("b", "0.02", "accurate", "0.1")])
         self.assertEqual(page.merge(merged, [], {"a", "b"}), merged)
 
+    def test_runs_of_other_commits_are_named(self):
+        rows = [row(dp=dp) | {"made by": "commit abc, today"} for dp in ("0.04", "0.02")] + [row(case="b") | {"made by": "commit old with changes, then"}]
+        self.assertEqual(page.commits_text(rows), "Of 3 runs 2 are of commit abc; of others (dp in metres) old with changes: b accurate 0.02.\n\n")
+        self.assertEqual(page.commits_text(rows[:2]), "Of 2 runs 2 are of commit abc.\n\n")
+
     def test_accurate_is_compared_with_paper_at_half_the_spacing(self):
         rows = [row(dp="0.04", error="-0.2"), row(dp="0.02", error="0.1"), row(preset="paper", dp="0.02", error="0.3"),
                 row(preset="paper", dp="0.01", metric="run ends", error="nan", accepted="no")]
