@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/triangle.hpp"
+
 namespace gdesp::analysis {
 namespace {
 
@@ -25,31 +27,7 @@ double squared_distance_to_box(const Vec3d& p, const Vec3d& lower, const Vec3d& 
   return sum;
 }
 
-Vec3d nearest_on_triangle(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-  const Vec3d ab = b - a, ac = c - a, ap = p - a;
-  const double d1 = dot(ab, ap), d2 = dot(ac, ap);
-  if (d1 <= 0 && d2 <= 0) return a;
-  const Vec3d bp = p - b;
-  const double d3 = dot(ab, bp), d4 = dot(ac, bp);
-  if (d3 >= 0 && d4 <= d3) return b;
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + ab * (d1 / (d1 - d3));
-  const Vec3d cp = p - c;
-  const double d5 = dot(ab, cp), d6 = dot(ac, cp);
-  if (d6 >= 0 && d5 <= d6) return c;
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + ac * (d2 / (d2 - d6));
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
-  const double sum = va + vb + vc;
-  return a + ab * (vb / sum) + ac * (vc / sum);
-}
-
 }  // namespace
-
-double point_triangle_distance(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-  return norm(p - nearest_on_triangle(p, a, b, c));
-}
 
 WallSurface::WallSurface(const TriangleTable& walls) {
   for (std::size_t k = 0; k < walls.triangle.size(); ++k) {
@@ -108,7 +86,7 @@ std::optional<Vec3d> WallSurface::nearest(const Vec3d& p, double limit) const {
     }
     for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
       const Triangle& t = triangle_[k];
-      const Vec3d here = nearest_on_triangle(p, t.a, t.b, t.c), d = p - here;
+      const Vec3d here = closest_point(p, t.a, t.b, t.c), d = p - here;
       if (dot(d, d) <= best2) {
         best2 = dot(d, d);
         best = here;

@@ -35,7 +35,4 @@ class WallSurface {
   std::vector<Node> node_;
 };
 
-/// Distance from a point to a triangle (Ericson 2005, Real-Time Collision Detection, sec. 5.1.5), m.
-double point_triangle_distance(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c);
-
 }  // namespace gdesp::analysis

@@ -44,26 +44,6 @@ void diagonalise(double m[9], double axes[9]) {
   }
 }
 
-// Of a right-handed matrix with the axes in columns; Shepperd (1978), doi:10.2514/3.55767b.
-Quaternion quaternion_of(const double r[9]) {
-  const double square[4] = {r[0] + r[4] + r[8], r[0], r[4], r[8]};
-  const int largest = static_cast<int>(std::max_element(square, square + 4) - square);
-  double q[4];
-  if (largest == 0) {
-    q[0] = 1.0 + square[0];
-    q[1] = r[7] - r[5];
-    q[2] = r[2] - r[6];
-    q[3] = r[3] - r[1];
-  } else {
-    const int i = largest - 1, j = (i + 1) % 3, k = (i + 2) % 3;
-    q[0] = r[3 * k + j] - r[3 * j + k];
-    q[1 + i] = 1.0 + r[4 * i] - r[4 * j] - r[4 * k];
-    q[1 + j] = r[3 * j + i] + r[3 * i + j];
-    q[1 + k] = r[3 * k + i] + r[3 * i + k];
-  }
-  return normalised({q[0], q[1], q[2], q[3]});
-}
-
 void find_principal_axes(const Body& body, Vec3d& moments, Quaternion& axes) {
   double m[9], columns[9];
   std::copy(std::begin(body.inertia), std::end(body.inertia), m);

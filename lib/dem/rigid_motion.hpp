@@ -12,6 +12,7 @@
 //   Source: Dullweber, Leimkuhler, McLachlan (1997), J. Chem. Phys. 107, 5840, doi:10.1063/1.474310.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/vec3.hpp"
@@ -31,6 +32,27 @@ inline Quaternion conjugate(const Quaternion& q) { return {q.w, -q.x, -q.y, -q.z
 inline Quaternion normalised(const Quaternion& q) {
   const double s = 1.0 / std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
   return {s * q.w, s * q.x, s * q.y, s * q.z};
+}
+
+/// Of a rotation's matrix, row by row. The largest of the four comes from the diagonal, so that nothing is divided by a small number
+/// (Shepperd 1978, doi:10.2514/3.55767b).
+inline Quaternion quaternion_of(const double r[9]) {
+  const double square[4] = {r[0] + r[4] + r[8], r[0], r[4], r[8]};
+  const int largest = static_cast<int>(std::max_element(square, square + 4) - square);
+  double q[4];
+  if (largest == 0) {
+    q[0] = 1.0 + square[0];
+    q[1] = r[7] - r[5];
+    q[2] = r[2] - r[6];
+    q[3] = r[3] - r[1];
+  } else {
+    const int i = largest - 1, j = (i + 1) % 3, k = (i + 2) % 3;
+    q[0] = r[3 * k + j] - r[3 * j + k];
+    q[1 + i] = 1.0 + r[4 * i] - r[4 * j] - r[4 * k];
+    q[1 + j] = r[3 * j + i] + r[3 * i + j];
+    q[1 + k] = r[3 * k + i] + r[3 * i + k];
+  }
+  return normalised({q[0], q[1], q[2], q[3]});
 }
 
 /// Row by row.

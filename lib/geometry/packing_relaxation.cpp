@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <numeric>
 
+#include "core/triangle.hpp"
 #include "geometry/packing_vicinity.hpp"
 
 namespace gdesp::geometry {
@@ -27,13 +28,13 @@ constexpr double still = 1e-4;            // of the diameter, in one iteration: 
 /// How far, and in which direction, a grain sticks into a triangle; the side is told by the triangle's normal where the
 /// nearest point lies inside it.
 Vec3d wall_push(const Vec3d& p, double radius, const TriangleTree& walls, std::int32_t t) {
-  int feature = 0;
+  TriangleFeature feature;
   const Vec3d* c = walls.corners(t);
   const Vec3d away = p - closest_point(p, c[0], c[1], c[2], &feature);
   const double distance = norm(away);
   if (distance >= radius) return {};
   const Vec3d n = walls.normal(t);
-  if (feature == 0) {
+  if (feature == TriangleFeature::face) {
     const double signed_distance = dot(away, n) < 0.0 ? -distance : distance;
     return n * (radius - signed_distance);
   }

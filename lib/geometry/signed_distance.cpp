@@ -13,6 +13,7 @@
 #include <mutex>
 
 #include "core/error.hpp"
+#include "core/triangle.hpp"
 
 namespace gdesp::geometry {
 namespace {

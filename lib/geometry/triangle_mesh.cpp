@@ -154,35 +154,4 @@ std::size_t border_edges(const TriangleMesh& mesh) {
   return border;
 }
 
-namespace {
-
-Vec3d with_feature(const Vec3d& p, int value, int* feature) {
-  if (feature) *feature = value;
-  return p;
-}
-
-}  // namespace
-
-Vec3d closest_point(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c, int* feature) {
-  const Vec3d ab = b - a, ac = c - a, ap = p - a;
-  const double d1 = dot(ab, ap), d2 = dot(ac, ap);
-  if (d1 <= 0 && d2 <= 0) return with_feature(a, 2, feature);
-  const Vec3d bp = p - b;
-  const double d3 = dot(ab, bp), d4 = dot(ac, bp);
-  if (d3 >= 0 && d4 <= d3) return with_feature(b, 2, feature);
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return with_feature(a + ab * (d1 / (d1 - d3)), 1, feature);
-  const Vec3d cp = p - c;
-  const double d5 = dot(ab, cp), d6 = dot(ac, cp);
-  if (d6 >= 0 && d5 <= d6) return with_feature(c, 2, feature);
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return with_feature(a + ac * (d2 / (d2 - d6)), 1, feature);
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
-    return with_feature(b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6))), 1, feature);
-  }
-  const double scale = 1.0 / (va + vb + vc);
-  return with_feature(a + ab * (vb * scale) + ac * (vc * scale), 0, feature);
-}
-
 }  // namespace gdesp::geometry

@@ -55,8 +55,4 @@ void flip(TriangleMesh& mesh);
 /// Number of edges that belong to one triangle only (0 for a closed mesh).
 std::size_t border_edges(const TriangleMesh& mesh);
 
-/// The point of triangle abc nearest to p (Ericson 2005, Real-Time Collision Detection, 5.1.5).
-/// `feature`: 0 face, 1 edge, 2 vertex.
-Vec3d closest_point(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c, int* feature = nullptr);
-
 }  // namespace gdesp::geometry

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/triangle.hpp"
+
 namespace gdesp::geometry {
 namespace {
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dem/rigid_motion.hpp"
 #include "simulation/prescribed_motion.hpp"
 
 namespace gdesp::tool {
@@ -17,28 +18,6 @@ Vec3d rotated(const double r[9], const Vec3d& v) {
 Vec3d placed(const Vec3d& start, const Body& body, const BodyPose& pose, double t) {
   if (body.kind == BodyKind::prescribed) return start + motion_at(body.motion, t).displacement;
   return pose.centre + rotated(pose.rotation, start - body.centre);
-}
-
-/// Shepperd's method: the largest of the four components is taken from the diagonal, so that nothing is divided by
-/// a small number (Shepperd 1978, doi:10.2514/3.55767b).
-void to_quaternion(const double r[9], double q[4]) {
-  const double trace = r[0] + r[4] + r[8];
-  const double squares[4] = {trace, r[0], r[4], r[8]};
-  const int largest = static_cast<int>(std::max_element(squares, squares + 4) - squares);
-  if (largest == 0) {
-    q[0] = 1.0 + trace;
-    q[1] = r[7] - r[5];
-    q[2] = r[2] - r[6];
-    q[3] = r[3] - r[1];
-  } else {
-    const int i = largest - 1, j = (i + 1) % 3, k = (i + 2) % 3;
-    q[0] = r[3 * k + j] - r[3 * j + k];
-    q[1 + i] = 1.0 + r[4 * i] - r[4 * j] - r[4 * k];
-    q[1 + j] = r[3 * j + i] + r[3 * i + j];
-    q[1 + k] = r[3 * k + i] + r[3 * i + k];
-  }
-  const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-  for (int c = 0; c < 4; ++c) q[c] /= length;
 }
 
 }  // namespace
@@ -75,7 +54,8 @@ std::vector<BodyState> body_states(const std::vector<Body>& bodies, const std::v
     state.angular_velocity = poses[b].angular_velocity;
     state.force = poses[b].force;
     state.torque = poses[b].torque;
-    to_quaternion(poses[b].rotation, state.orientation);
+    const dem::Quaternion q = dem::quaternion_of(poses[b].rotation);
+    state.orientation[0] = q.w, state.orientation[1] = q.x, state.orientation[2] = q.y, state.orientation[3] = q.z;
     states.push_back(state);
   }
   return states;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/triangle.hpp"
 #include "exact_fields.hpp"
 
 namespace gdesp::analysis {
@@ -191,7 +192,7 @@ TEST(WallSurface, DistanceAgreesWithAllTriangles) {
     const Vec3d p{10 + 12 * std::sin(k * 1.7), 10 + 12 * std::cos(k * 2.3), 2 * std::sin(k * 0.9)};
     double best = 1e300;
     for (const auto& f : t.triangle) {
-      best = std::min(best, point_triangle_distance(p, t.vertex[f.x], t.vertex[f.y], t.vertex[f.z]));
+      best = std::min(best, norm(p - closest_point(p, t.vertex[f.x], t.vertex[f.y], t.vertex[f.z])));
     }
     const auto found = wall.nearest(p, 1.0);
     EXPECT_EQ(found.has_value(), best <= 1.0);
@@ -211,13 +212,6 @@ TEST(WallSurface, TheGroundIsTheFloorOfAClosedTankNotItsLid) {
   t.triangle = {{4, 6, 5}, {4, 7, 6}};
   EXPECT_NEAR(WallSurface(t).height(0.3, 0.4).value(), 2.0, 1e-12) << "nothing faces up";
   EXPECT_FALSE(WallSurface(t).height(1.3, 0.4));
-}
-
-TEST(WallSurface, PointTriangleDistanceByHand) {
-  const Vec3d a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0};
-  EXPECT_NEAR(point_triangle_distance({0.2, 0.2, 3}, a, b, c), 3.0, 1e-12);   // face
-  EXPECT_NEAR(point_triangle_distance({0.5, -2, 0}, a, b, c), 2.0, 1e-12);    // edge
-  EXPECT_NEAR(point_triangle_distance({-3, -4, 0}, a, b, c), 5.0, 1e-12);     // vertex
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/triangle_tree.hpp"
 
+#include "core/triangle.hpp"
 #include "geometry/random.hpp"
 #include "support.hpp"
 
@@ -41,13 +42,13 @@ TEST(TriangleTree, EmptyAndSingle) {
 
 TEST(ClosestPoint, FacesEdgesVertices) {
   const Vec3d a{0, 0, 0}, b{2, 0, 0}, c{0, 2, 0};
-  int feature = -1;
+  TriangleFeature feature = TriangleFeature::vertex;
   closest_point({0.5, 0.5, 1}, a, b, c, &feature);
-  EXPECT_EQ(feature, 0);
+  EXPECT_EQ(feature, TriangleFeature::face);
   EXPECT_NEAR(norm(closest_point({1, -3, 0}, a, b, c, &feature) - Vec3d{1, 0, 0}), 0.0, 1e-15);
-  EXPECT_EQ(feature, 1);
+  EXPECT_EQ(feature, TriangleFeature::edge);
   EXPECT_NEAR(norm(closest_point({5, -1, 0}, a, b, c, &feature) - b), 0.0, 1e-15);
-  EXPECT_EQ(feature, 2);
+  EXPECT_EQ(feature, TriangleFeature::vertex);
 }
 
 }  // namespace
