@@ -118,7 +118,8 @@ struct ExtrapolateWalls {
   ClusterListView list;
   const float* fluid;
   float* walls;
-  float* ghost;  // no-slip walls only
+  float* ghost;          // no-slip walls only
+  const float* surface;  // nx ny nz depth, 4 each, per cluster; null: unknown
 
   template <class Lanes>
   GDESP_HD void operator()(Index c, const Lanes& lanes) const {
@@ -148,6 +149,9 @@ struct ExtrapolateWalls {
       lanes.store_sum_i(out, sums.vx);
       lanes.store_sum_i(out + 4, sums.vy);
       lanes.store_sum_i(out + 8, sums.vz);
+      if (!surface) return;
+      const float* n = surface + 16 * static_cast<std::int64_t>(c);
+      lanes.store_sum_i(out + 12, Real(0.0f) - lanes.load_i(n) * sums.rx - lanes.load_i(n + 4) * sums.ry - lanes.load_i(n + 8) * sums.rz);
     }
   }
 };
@@ -157,7 +161,8 @@ struct FinishWalls {
   const std::uint32_t* count;
   const float* friction;
   float* walls;
-  float* ghost;  // null: no no-slip walls
+  float* ghost;   // null: no no-slip walls
+  const float* surface;  // as above
   GDESP_HD void operator()(Index slot) const {
     const Index c = slot / exec::cluster_size;
     float* r = walls + record_offset(c) + slot % exec::cluster_size;
@@ -173,9 +178,11 @@ struct FinishWalls {
     r[row_B] = 1.0f / (1.0f + tait_density(real::max(A, 0.0f)));
   }
   GDESP_HD void mirror(std::int64_t at, const float* r, float weight, float has_friction) const {
+    const bool slides = !(weight > 1.0e-6f && has_friction > 0.0f);
+    const float share = slides || !surface ? 1.0f : no_slip_share(surface[at + 12], ghost[at + 12] / weight);
     for (int row = 0; row < 12; row += 4) {
       const float wall = r[row_vx + row];
-      ghost[at + row] = weight > 1.0e-6f && has_friction > 0.0f ? 2.0f * wall - ghost[at + row] / weight : wall;
+      ghost[at + row] = slides ? wall : wall + share * (wall - ghost[at + row] / weight);
     }
   }
 };
@@ -380,18 +387,19 @@ template <class Exec>
 void FluidSystem<Exec>::extrapolate_walls() {
   if (wall_set_.clusters() == 0 || !parameters_.extrapolated_walls) return;
   float* ghost = no_slip_ ? wall_ghost_.data() : nullptr;
+  const float* surface = guarded_ ? wall_surface_.data() : nullptr;
   if (no_slip_) {
     exec::pair_pass(exec_, "sph::walls", near_walls_.count(),
                     chosen_clusters(near_walls_.list(), ExtrapolateWalls<true>{pair_law(), wall_fluid_.view(), record_.data(),
-                                                                               wall_record_.data(), ghost}));
+                                                                               wall_record_.data(), ghost, surface}));
   } else {
     exec::pair_pass(exec_, "sph::walls", near_walls_.count(),
                     chosen_clusters(near_walls_.list(), ExtrapolateWalls<false>{pair_law(), wall_fluid_.view(), record_.data(),
-                                                                                wall_record_.data(), nullptr}));
+                                                                                wall_record_.data(), nullptr, nullptr}));
   }
   exec::parallel_for(exec_, "sph::walls_finish", exec::cluster_size * near_walls_.count(),
                      chosen_slots(near_walls_.list(), FinishWalls{wall_fluid_.view().count, wall_friction_.data(),
-                                                                  wall_record_.data(), ghost}));
+                                                                  wall_record_.data(), ghost, surface}));
 }
 
 template <class Exec>

@@ -216,7 +216,7 @@ class FluidSystem {
   Array<float, Exec> near_wall_;                ///< of the water: six rows of 4 per cluster (sph/wall_guard.hpp)
   bool guarded_ = false;                        ///< some wall particle knows its normal
   bool no_slip_ = false;                        ///< some wall particle has friction, and water viscosity
-  Array<float, Exec> wall_ghost_;               ///< vx vy vz weight of no-slip walls, 4 each, per cluster
+  Array<float, Exec> wall_ghost_;               ///< vx vy vz of no-slip walls and, on the way, the water's reach (m), 4 each, per cluster
   Array<float, Exec> spacing_;                  ///< of the water: -grad C and D (sph/particle_shifting.hpp), 4 each
   Array<float, Exec> near_surface_;             ///< q of sph.shifting, by slot
   Array<float, Exec> own_pressure_;             ///< A_i under tensile control, by slot

@@ -6,9 +6,11 @@
 //   the water at the shore down the slope; not fourfold below zero, it pushes the rows below the surface off the wall, against air.) Source: Adami, Hu, Adams (2012), J. Comput. Phys. 231, 7057, eqs 27-28,
 //   doi:10.1016/j.jcp.2012.05.005.
 // @eq sph.wall.no-slip
-//   v_ghost = 2 v_w - sum_f v_f W_wf / sum_f W_wf,  seen by the viscosity alone; continuity sees v_w.
-//   v_w: velocity of the wall [m/s], f: fluid particles. Makes the velocity of the fluid that of the wall at its surface.
-//   Source: Adami, Hu, Adams (2012), eqs 22-23; Morris, Fox, Zhu (1997), doi:10.1006/jcph.1997.5776.
+//   v_ghost = v_w + s (v_w - <v_f>),  s = min(depth/(<(r_f - r_w) . n> - depth), 3),  <x> = sum_f x_f W_wf / sum_f W_wf;
+//   seen by the viscosity alone; continuity sees v_w. v_w: velocity of the wall [m/s], f: fluid particles, n, depth [m]: of the wall particle
+//   below the surface, so that the velocity is linear across the surface and the wall's there. s = 1 where the normal is unknown.
+//   Sources: <v_f>: Adami, Hu, Adams (2012), eqs 22-23, with s = 1; s of distances: Morris, Fox, Zhu (1997),
+//   doi:10.1006/jcph.1997.5776, pair by pair and at most 1.5 (docs/decisions/0054).
 #pragma once
 
 #include "core/host_device.hpp"
@@ -31,6 +33,12 @@ GDESP_HD inline Real pressing_wall(const Real& A_w, const Real& A_f) {
   using real::max;
   using real::min;
   return max(min(A_w, Real(4.0f) * A_w), min(Real(0.0f), Real(0.0f) - A_f));
+}
+
+/// s of sph.wall.no-slip; `reach`: <(r_f - r_w) . n> (m), 0 without a normal.
+GDESP_HD inline float no_slip_share(float depth, float reach) {
+  if (!(depth > 0.0f && reach > 0.0f)) return 1.0f;
+  return depth < 3.0f * (reach - depth) ? depth / (reach - depth) : 3.0f;
 }
 
 /// Adds fluid particle f. r = r_w - r_f. Returns W / alpha.

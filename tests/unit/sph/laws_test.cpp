@@ -296,6 +296,16 @@ TEST(WallPair, a_wall_above_still_water_neither_pushes_nor_pulls) {
   EXPECT_EQ(pressing_wall(-0.2f, -0.3f), 0.0f) << "water in tension finds the wall at zero";
 }
 
+// @eq sph.wall.no-slip
+TEST(WallExtrapolation, a_no_slip_wall_continues_the_profile) {
+  // A wall particle half a spacing deep and water that is 0.7 spacings high in the mean: linear through zero at the surface.
+  const float share = no_slip_share(0.5f, 0.5f + 0.7f), slope = 3.0f;
+  EXPECT_FLOAT_EQ(-share * slope * 0.7f, slope * -0.5f);
+  EXPECT_EQ(no_slip_share(2.5f, 2.5f + 0.5f), 3.0f) << "deep layers are bounded";
+  EXPECT_EQ(no_slip_share(0.5f, 0.4f), 3.0f) << "beside an edge the mean of the water may lie below the surface's plane";
+  EXPECT_EQ(no_slip_share(0.5f, 0.0f), 1.0f) << "no normal: mirrored";
+}
+
 TEST(RecordPacker, water_in_tension_has_no_pressure_where_it_cavitates) {
   Domain domain{};
   domain.tile_size = {1, 1, 1};
