@@ -28,7 +28,7 @@ class Rows:
     def add(self, metric, unit, value, reference, error, band):
         """`error` in the metric's own terms; accepted when |error| <= band."""
         print("\t".join([metric, unit, f"{value:.5g}", f"{reference:.5g}" if not isinstance(reference, str) else reference,
-                         f"{error:.3g}", f"{band:g}"]), flush=True)
+                         f"{error:.4g}", f"{band:g}"]), flush=True)
 
     def stated(self, metric, unit, value, reference):
         """A number that no reference has, written down without being judged."""

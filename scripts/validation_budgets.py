@@ -70,5 +70,5 @@ def budgets(run):
         found.append((ENERGY, energy_created(lines, math.hypot(*scene["gravity"]) * scene["resolution"]["dp"]), ENERGY_BAND))
     if is_closed(scene):
         found.append((MOMENTUM, momentum_gained(lines), MOMENTUM_BAND))
-    return [{"metric": metric, "unit": "1", "value": f"{value:.3g}", "reference": "0", "error": f"{value:.3g}", "band": f"{band:g}"}
+    return [{"metric": metric, "unit": "1", "value": f"{value:.3g}", "reference": "0", "error": f"{value:.4g}", "band": f"{band:g}"}
             for metric, value, band in found]
