@@ -12,18 +12,39 @@ struct CountedReal {
   float v = 0.0f;
   CountedReal() = default;
   CountedReal(float x) : v(x) {}
-  CountedReal& operator+=(const CountedReal& b) { ++count; v += b.v; return *this; }
-  CountedReal& operator-=(const CountedReal& b) { ++count; v -= b.v; return *this; }
-  CountedReal& operator*=(const CountedReal& b) { ++count; v *= b.v; return *this; }
+  CountedReal& operator+=(const CountedReal& b) {
+    ++count;
+    v += b.v;
+    return *this;
+  }
+  CountedReal& operator-=(const CountedReal& b) {
+    ++count;
+    v -= b.v;
+    return *this;
+  }
+  CountedReal& operator*=(const CountedReal& b) {
+    ++count;
+    v *= b.v;
+    return *this;
+  }
 };
-inline CountedReal counted(float x) { ++CountedReal::count; return x; }
+inline CountedReal counted(float x) {
+  ++CountedReal::count;
+  return x;
+}
 inline CountedReal operator+(const CountedReal& a, const CountedReal& b) { return counted(a.v + b.v); }
 inline CountedReal operator-(const CountedReal& a, const CountedReal& b) { return counted(a.v - b.v); }
 inline CountedReal operator*(const CountedReal& a, const CountedReal& b) { return counted(a.v * b.v); }
 inline CountedReal operator/(const CountedReal& a, const CountedReal& b) { return counted(a.v / b.v); }
 inline CountedReal operator-(const CountedReal& a) { return -a.v; }
-inline bool operator<(const CountedReal& a, const CountedReal& b) { ++CountedReal::count; return a.v < b.v; }
-inline bool operator>(const CountedReal& a, const CountedReal& b) { ++CountedReal::count; return a.v > b.v; }
+inline bool operator<(const CountedReal& a, const CountedReal& b) {
+  ++CountedReal::count;
+  return a.v < b.v;
+}
+inline bool operator>(const CountedReal& a, const CountedReal& b) {
+  ++CountedReal::count;
+  return a.v > b.v;
+}
 inline CountedReal max(const CountedReal& a, const CountedReal& b) { return counted(real::max(a.v, b.v)); }
 inline CountedReal min(const CountedReal& a, const CountedReal& b) { return counted(real::min(a.v, b.v)); }
 inline CountedReal sqrt(const CountedReal& a) { return counted(real::sqrt(a.v)); }

@@ -3,8 +3,8 @@
 // that lists go stale as in a slow flow.
 // usage: bench_dem_step [sizes] [threads] [file]: `file` receives the grains as a LAMMPS data file and nothing is timed
 #include "counted_real.hpp"
-#include "scenes.hpp"
 #include "dem/contact_force.hpp"
+#include "scenes.hpp"
 
 namespace {
 
@@ -31,8 +31,10 @@ int write_data(const GrainTable& table, double side, const char* path) {
     std::fprintf(stderr, "bench_dem_step: cannot write %s\n", path);
     return 5;
   }
-  std::fprintf(file, "settled grains\n\n%zu atoms\n1 atom types\n\n0 %.9g xlo xhi\n0 %.9g ylo yhi\n-0.01 0.6 zlo zhi\n\n"
-               "Atoms # sphere\n\n", table.position.size(), side, side);
+  std::fprintf(file,
+               "settled grains\n\n%zu atoms\n1 atom types\n\n0 %.9g xlo xhi\n0 %.9g ylo yhi\n-0.01 0.6 zlo zhi\n\n"
+               "Atoms # sphere\n\n",
+               table.position.size(), side, side);
   for (std::size_t k = 0; k < table.position.size(); ++k) {
     const Vec3d& r = table.position[k];
     std::fprintf(file, "%zu 1 %.9g %.9g %.9g %.9g %.9g\n", k + 1, static_cast<double>(table.diameter[k]),
@@ -65,10 +67,11 @@ void run(long wanted, int threads) {
   exec::set_profiling(false);
   const dem::GrainSums sums = grains.sums();
   const double contacts = 2.0 * sums.contacts / std::max(1, sums.particles);
-  bench::print({"dem_step", sums.particles, threads}, static_cast<double>(sums.particles) * static_cast<double>(steps) / seconds,
-               "grain steps/s",
+  bench::print({"dem_step", sums.particles, threads},
+               static_cast<double>(sums.particles) * static_cast<double>(steps) / seconds, "grain steps/s",
                {{"contacts_per_grain", contacts},
-                {"rebuilds_per_100_steps", 100.0 * static_cast<double>(grains.rebuilds() - rebuilds) / static_cast<double>(steps)},
+                {"rebuilds_per_100_steps",
+                 100.0 * static_cast<double>(grains.rebuilds() - rebuilds) / static_cast<double>(steps)},
                 {"dt", dt},
                 {"flop_per_particle", contacts * contact_operations() + 60.0},
                 // records in and out, row of contacts in and history out, velocities in and out, start

@@ -15,18 +15,22 @@ namespace gdesp::bench {
 /// What both need: the law, the lists, the records, and factors of the rates.
 struct PlainPass {
   sph::FluidPairLaw law;
-  float c2, diffusion;        // m2/s2, m2/s
+  float c2, diffusion;  // m2/s2, m2/s
   ClusterListView list;
   const float* record;
   const float* mass_share;
-  float* rate;                // ax ay az dD, 4 each, per cluster
+  float* rate;  // ax ay az dD, 4 each, per cluster
 };
 
 inline PlainPass plain_pass(sph::FluidSystem<exec::OpenMP>& fluid, float* rate) {
   const sph::FluidParameters& p = fluid.parameters();
-  return {fluid.pair_law(), static_cast<float>(p.sound_speed * p.sound_speed),
-          static_cast<float>(2.0 * p.density_diffusion * p.h * p.sound_speed), fluid.fluid_list(), fluid.records(),
-          fluid.mass_share(), rate};
+  return {fluid.pair_law(),
+          static_cast<float>(p.sound_speed * p.sound_speed),
+          static_cast<float>(2.0 * p.density_diffusion * p.h * p.sound_speed),
+          fluid.fluid_list(),
+          fluid.records(),
+          fluid.mass_share(),
+          rate};
 }
 
 /// One pair after the other.
@@ -100,7 +104,8 @@ struct HandWrittenPass {
       ay = _mm512_fmadd_ps(push, dy, ay);
       az = _mm512_fmadd_ps(push, dz, az);
       compression = _mm512_fnmadd_ps(G, vr, compression);
-      const __m512 head = _mm512_fmadd_ps(gz, dz, _mm512_fmadd_ps(gy, dy, _mm512_fmadd_ps(gx, dx, _mm512_sub_ps(aj, a))));
+      const __m512 head =
+          _mm512_fmadd_ps(gz, dz, _mm512_fmadd_ps(gy, dy, _mm512_fmadd_ps(gx, dx, _mm512_sub_ps(aj, a))));
       diffusion = _mm512_fmadd_ps(G, head, diffusion);
     });
     float* out = p.rate + 16 * static_cast<std::int64_t>(c);

@@ -26,9 +26,9 @@
 namespace gdesp {
 namespace {
 
-constexpr double length = 4.0, depth = 1.6, width = 0.6, slide_side = 0.9, toe = 2.0;   // m; the slope is z = x - toe
+constexpr double length = 4.0, depth = 1.6, width = 0.6, slide_side = 0.9, toe = 2.0;  // m; the slope is z = x - toe
 constexpr double paper_seconds = 2.52 * 3600.0, paper_end = 7.0;
-constexpr double roof = 2.8;                                                             // m, of the domain
+constexpr double roof = 2.8;  // m, of the domain
 
 struct Options {
   std::string device = "cpu";
@@ -37,7 +37,7 @@ struct Options {
   bool run = false;
 };
 
-double below_slope(double x, double z) { return (x - toe - z) / std::sqrt(2.0); }   // m, > 0 in the slope
+double below_slope(double x, double z) { return (x - toe - z) / std::sqrt(2.0); }  // m, > 0 in the slope
 
 void fill(SimulationInput& input, double dp) {
   const int layers = 3, across = static_cast<int>(std::lround(width / dp));
@@ -49,8 +49,10 @@ void fill(SimulationInput& input, double dp) {
         const double inside = below_slope(r.x, r.z);
         if (inside > layers * dp) continue;
         const bool wall = i < 0 || j < 0 || j >= across || k < 0 || inside > -0.25 * dp;
-        if (wall) input.boundary.position.push_back(r);
-        else if (r.z < depth) input.fluid.position.push_back(r);
+        if (wall)
+          input.boundary.position.push_back(r);
+        else if (r.z < depth)
+          input.fluid.position.push_back(r);
       }
 }
 
@@ -114,22 +116,29 @@ int run(const Options& options) {
   bench::start_profile();
   const std::clock_t processor = std::clock();
   const auto start = std::chrono::steady_clock::now();
-  if (options.run) simulation->advance_to(paper_end);
-  else for (int k = 0; k < options.steps; ++k) simulation->step(1.0e3);
+  if (options.run)
+    simulation->advance_to(paper_end);
+  else
+    for (int k = 0; k < options.steps; ++k) simulation->step(1.0e3);
   const Diagnostics after = simulation->diagnostics();
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const double cpu = static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC;
   bench::print_profile();
   const double simulated = after.time - before.time, steps = static_cast<double>(after.step - before.step);
   const double substeps = static_cast<double>(after.grain_substeps - before.grain_substeps);
-  const double sph = static_cast<double>(after.fluid_particles + after.wall_particles), grains = static_cast<double>(after.grains);
+  const double sph = static_cast<double>(after.fluid_particles + after.wall_particles),
+               grains = static_cast<double>(after.grains);
   const double seven = wall * paper_end / simulated;
-  std::printf("{\"bench\":\"landslide\",\"device\":\"%s\",\"threads\":%d,\"grains\":%.0f,\"water\":%ld,\"walls\":%ld,\"steps\":%.0f,"
-              "\"substeps_per_step\":%.1f,\"dt\":%.3g,\"ms_per_step\":%.4g,\"cpu_ms_per_step\":%.4g,\"sph_particle_steps_per_s\":%.4g,\"grain_substeps_per_s\":%.4g,"
-              "\"memory_bytes\":%zu,\"seconds_for_7s\":%.4g,\"projected\":%s,\"score\":%.4g,\"times_the_paper\":%.4g}\n",
-              options.device.c_str(), threads, grains, static_cast<long>(after.fluid_particles), static_cast<long>(after.wall_particles),
-              steps, substeps / steps, simulated / steps, 1e3 * wall / steps, 1e3 * cpu / steps, sph * steps / wall, grains * substeps / wall,
-              exec::peak_allocated_bytes(), seven, options.run ? "false" : "true", (sph + grains) * paper_end / seven, paper_seconds / seven);
+  std::printf(
+      "{\"bench\":\"landslide\",\"device\":\"%s\",\"threads\":%d,\"grains\":%.0f,\"water\":%ld,\"walls\":%ld,\"steps\":"
+      "%.0f,"
+      "\"substeps_per_step\":%.1f,\"dt\":%.3g,\"ms_per_step\":%.4g,\"cpu_ms_per_step\":%.4g,\"sph_particle_steps_per_"
+      "s\":%.4g,\"grain_substeps_per_s\":%.4g,"
+      "\"memory_bytes\":%zu,\"seconds_for_7s\":%.4g,\"projected\":%s,\"score\":%.4g,\"times_the_paper\":%.4g}\n",
+      options.device.c_str(), threads, grains, static_cast<long>(after.fluid_particles),
+      static_cast<long>(after.wall_particles), steps, substeps / steps, simulated / steps, 1e3 * wall / steps,
+      1e3 * cpu / steps, sph * steps / wall, grains * substeps / wall, exec::peak_allocated_bytes(), seven,
+      options.run ? "false" : "true", (sph + grains) * paper_end / seven, paper_seconds / seven);
   return 0;
 }
 
@@ -140,15 +149,24 @@ int main(int argc, char** argv) {
   gdesp::Options options;
   for (int k = 1; k < argc; ++k) {
     const auto is = [&](const char* name) { return std::strcmp(argv[k], name) == 0 && (k + 1 < argc); };
-    if (std::strcmp(argv[k], "--run") == 0) options.run = true;
-    else if (is("--device")) options.device = argv[++k];
-    else if (is("--threads")) options.threads = std::atoi(argv[++k]);
-    else if (is("--scale")) options.scale = std::atof(argv[++k]);
-    else if (is("--youngs-modulus")) options.youngs_modulus = std::atof(argv[++k]);
-    else if (is("--warm-up")) options.warm_up = std::atof(argv[++k]);
-    else if (is("--steps")) options.steps = std::atoi(argv[++k]);
+    if (std::strcmp(argv[k], "--run") == 0)
+      options.run = true;
+    else if (is("--device"))
+      options.device = argv[++k];
+    else if (is("--threads"))
+      options.threads = std::atoi(argv[++k]);
+    else if (is("--scale"))
+      options.scale = std::atof(argv[++k]);
+    else if (is("--youngs-modulus"))
+      options.youngs_modulus = std::atof(argv[++k]);
+    else if (is("--warm-up"))
+      options.warm_up = std::atof(argv[++k]);
+    else if (is("--steps"))
+      options.steps = std::atoi(argv[++k]);
     else {
-      std::fprintf(stderr, "usage: bench_landslide [--device cpu|cuda|cuda:N] [--threads N] [--scale S] [--steps N] [--youngs-modulus E] [--warm-up T] [--run]\n");
+      std::fprintf(stderr,
+                   "usage: bench_landslide [--device cpu|cuda|cuda:N] [--threads N] [--scale S] [--steps N] "
+                   "[--youngs-modulus E] [--warm-up T] [--run]\n");
       return 2;
     }
   }

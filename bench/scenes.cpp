@@ -93,7 +93,8 @@ FluidTable jittered_block(int n, double dp) {
     for (int j = 0; j < n; ++j)
       for (int k = 0; k < n; ++k) {
         table.position.push_back({(i + 0.5) * dp + jitter(), (j + 0.5) * dp + jitter(), (k + 0.5) * dp + jitter()});
-        table.velocity.push_back({static_cast<float>(jitter()), static_cast<float>(jitter()), static_cast<float>(jitter())});
+        table.velocity.push_back(
+            {static_cast<float>(jitter()), static_cast<float>(jitter()), static_cast<float>(jitter())});
         table.density.push_back(1000.0f);
       }
   return table;
@@ -112,8 +113,8 @@ SimulationInput dam_break(long particles, double h_over_dp) {
     // A stagnation flow: no divergence, no flow through the floor or the back wall.
     const double x = r.x / depth, z = r.z / depth;
     input.fluid.velocity[k] += Vec3f{static_cast<float>(speed * x), 0.0f, static_cast<float>(-speed * z)};
-    input.fluid.density[k] = static_cast<float>(1000.0 * (1.0 + 9.81 * (depth - r.z) /
-                                                          std::pow(input.fluid_parameters.sound_speed, 2.0)));
+    input.fluid.density[k] =
+        static_cast<float>(1000.0 * (1.0 + 9.81 * (depth - r.z) / std::pow(input.fluid_parameters.sound_speed, 2.0)));
   }
   const long height = n + n / 2;
   input.boundary = tank_walls(3L * n, n, height, spacing);
@@ -148,8 +149,8 @@ Domain layer_domain(double side, double height) {
 GrainTable settled_grains(long grains, double& side) {
   const GrainTable& patch = settled_patch();
   const double width = static_cast<double>(patch_across) * grain_diameter;
-  const long copies = std::max(1L, std::lround(std::sqrt(static_cast<double>(grains) /
-                                                         static_cast<double>(patch.position.size()))));
+  const long copies =
+      std::max(1L, std::lround(std::sqrt(static_cast<double>(grains) / static_cast<double>(patch.position.size()))));
   side = static_cast<double>(copies) * width;
   GrainTable table;
   for (long i = 0; i < copies; ++i)

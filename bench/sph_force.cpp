@@ -19,9 +19,9 @@ double pair_operations() {
   sph::FluidRates<CountedReal> rates;
   const CountedReal one(1.0f);
   return 6.0 + bench::operations_of([&] {
-    sph::add_fluid_pair<Momentum, Continuity, sph::Viscosity::artificial, true>(law, one, one, one, one, one, one, one,
-                                                                                one, one, one, rates);
-  });
+           sph::add_fluid_pair<Momentum, Continuity, sph::Viscosity::artificial, true>(law, one, one, one, one, one,
+                                                                                       one, one, one, one, one, rates);
+         });
 }
 
 // Neighbours inside the support on the undisturbed lattice.

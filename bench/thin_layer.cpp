@@ -30,13 +30,14 @@ void run(long wanted, int threads) {
     library = std::min(library, bench::seconds_of([&] { fluid.combined_pass(); }));
     loop = std::min(loop, bench::seconds_of([&] { bench::run_plain(by_hand, clusters); }));
   }
-  bench::print({"thin_layer", fluid.particles(), threads}, static_cast<double>(fluid.particles()) / library,
-               "particle evaluations/s",
-               {{"ratio", library / loop},
-                {"difference", bench::largest_difference(fluid.rates(), rate.data(), clusters)}});
+  bench::print(
+      {"thin_layer", fluid.particles(), threads}, static_cast<double>(fluid.particles()) / library,
+      "particle evaluations/s",
+      {{"ratio", library / loop}, {"difference", bench::largest_difference(fluid.rates(), rate.data(), clusters)}});
 #else
   (void)wanted, (void)threads;
-  std::fprintf(stderr, "bench_thin_layer: the loop by hand is for AVX-512, and this build has none; nothing measured\n");
+  std::fprintf(stderr,
+               "bench_thin_layer: the loop by hand is for AVX-512, and this build has none; nothing measured\n");
 #endif
 }
 

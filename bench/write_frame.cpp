@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Writing a frame of water as gdesp-run does, into a temporary folder.
 // usage: bench_write_frame [sizes] [threads]
-#include <filesystem>
 #include <unistd.h>
+
+#include <filesystem>
 
 #include "bench.hpp"
 #include "io/frame.hpp"
@@ -30,7 +31,8 @@ void run(long particles, int threads) {
     FrameWriter writer(folder.string(), {}, 0.01, true, false);
     const double seconds = bench::best_seconds(3, [&] {
       const FramePaths paths = writer.write(frame);
-      bytes = static_cast<double>(fs::file_size(fs::exists(paths.fluid) ? fs::path(paths.fluid) : folder / paths.fluid));
+      bytes =
+          static_cast<double>(fs::file_size(fs::exists(paths.fluid) ? fs::path(paths.fluid) : folder / paths.fluid));
       frame.time += 1.0;
     });
     bench::print({"write_frame", particles, threads}, static_cast<double>(particles) / seconds, "particles/s",

@@ -22,11 +22,11 @@ using Values = std::array<float, voxels>;
 std::size_t place(int x, int y, int z) { return (static_cast<std::size_t>(x) * edge + y) * edge + z; }
 
 struct Tile {
-  Index at;                        // in tiles
-  std::vector<Vec3f> particle;     // in this tile
-  bool inside = false;             // wholly within the union
-  std::unique_ptr<Values> value;   // distance to the union's surface; none: beyond reach of it
-  std::vector<Vec3f> crossing;     // where the surface crosses edges between voxels
+  Index at;                       // in tiles
+  std::vector<Vec3f> particle;    // in this tile
+  bool inside = false;            // wholly within the union
+  std::unique_ptr<Values> value;  // distance to the union's surface; none: beyond reach of it
+  std::vector<Vec3f> crossing;    // where the surface crosses edges between voxels
 };
 
 class TileSet {
@@ -167,7 +167,8 @@ void find_crossings(const TileSet& tiles, Tile& tile, int axis) {
 void measure_inside(const TileSet& tiles, Tile& tile, float reach) {
   if (!tile.value && !tile.inside) return;
   thread_local std::vector<Vec3f> near;
-  gather(tiles, tile, reach, [](const Tile& t) -> const std::vector<Vec3f>& { return t.crossing; }, near);
+  gather(
+      tiles, tile, reach, [](const Tile& t) -> const std::vector<Vec3f>& { return t.crossing; }, near);
   if (tile.inside) {
     if (near.empty()) return;
     tile.value = std::make_unique<Values>();
@@ -194,9 +195,12 @@ void pad(const TileSet& tiles, const Tile& tile, float outside, float inside, Pa
       for (int z = -1; z <= edge; ++z) {
         const Tile* from = around[9 * part(x) + 3 * part(y) + part(z) + 13];
         float& value = all[((x + 1) * padded + y + 1) * padded + z + 1];
-        if (!from) value = outside;
-        else if (from->value) value = (*from->value)[place(x & 7, y & 7, z & 7)];
-        else value = from->inside ? inside : outside;
+        if (!from)
+          value = outside;
+        else if (from->value)
+          value = (*from->value)[place(x & 7, y & 7, z & 7)];
+        else
+          value = from->inside ? inside : outside;
       }
     }
   }
@@ -256,7 +260,8 @@ std::vector<VoxelTile> closed_union(std::span<const Vec3d> position, const Closi
     if (smooth(tiles, tile[t], o, reach - radius, -depth, *out)) smoothed[t] = std::move(out);
   }
   std::vector<VoxelTile> result;
-  for (const auto& out : smoothed) if (out) result.push_back(*out);
+  for (const auto& out : smoothed)
+    if (out) result.push_back(*out);
   return result;
 }
 

@@ -78,8 +78,7 @@ int ColumnGrid::column_y(double y) const {
 
 std::size_t ColumnGrid::first_at_or_above(std::size_t column, double z) const {
   const auto first = position_.begin() + start_[column], last = position_.begin() + start_[column + 1];
-  return std::lower_bound(first, last, z, [](const Vec3d& p, double value) { return p.z < value; }) -
-         position_.begin();
+  return std::lower_bound(first, last, z, [](const Vec3d& p, double value) { return p.z < value; }) - position_.begin();
 }
 
 double ColumnGrid::highest_below(double x, double y, double radius, double z) const {

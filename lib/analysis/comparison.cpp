@@ -20,7 +20,8 @@ Curve cleaned(const Curve& c, const char* whose) {
     if (!std::isfinite(c.x[k]) || !std::isfinite(c.y[k])) continue;
     if (!out.x.empty() && c.x[k] < out.x.back()) {
       throw Error(ErrorKind::input, std::string(whose) + ": x falls from " + std::to_string(out.x.back()) + " to " +
-                                        std::to_string(c.x[k]) + "; the rows must be in order (choose one series with --where)");
+                                        std::to_string(c.x[k]) +
+                                        "; the rows must be in order (choose one series with --where)");
     }
     if (!out.x.empty() && c.x[k] == out.x.back()) {
       out.y.back() = c.y[k];
@@ -86,9 +87,10 @@ Comparison compare_curves(const Curve& ours, const Curve& reference, const Compa
     }
   }
   if (best.points == 0) {
-    throw Error(ErrorKind::input, "no point of the reference lies within our table's range" +
-                                      (mine.x.empty() ? std::string(", which is empty")
-                                                      : " " + std::to_string(mine.x.front()) + " .. " + std::to_string(mine.x.back())));
+    throw Error(ErrorKind::input,
+                "no point of the reference lies within our table's range" +
+                    (mine.x.empty() ? std::string(", which is empty")
+                                    : " " + std::to_string(mine.x.front()) + " .. " + std::to_string(mine.x.back())));
   }
   return best;
 }
@@ -120,7 +122,9 @@ Convergence assess_convergence(std::vector<double> spacing, std::vector<double> 
   }
   // Equation 3 without its fixed point, which need not settle for unequal ratios: f = f0 + C h^p demands
   // e32 / e21 = r21^p (r32^p - 1) / (r21^p - 1), whose right side grows with p from ln r32 / ln r21 at p = 0.
-  const auto demanded = [&](double p) { return std::pow(r21, p) * std::expm1(p * std::log(r32)) / std::expm1(p * std::log(r21)); };
+  const auto demanded = [&](double p) {
+    return std::pow(r21, p) * std::expm1(p * std::log(r32)) / std::expm1(p * std::log(r21));
+  };
   double low = 1e-3, high = 40.0;
   if (1.0 / c.ratio <= demanded(low)) {
     c.kind = ConvergenceKind::diverging;
@@ -140,10 +144,14 @@ Convergence assess_convergence(std::vector<double> spacing, std::vector<double> 
 
 std::string to_string(ConvergenceKind kind) {
   switch (kind) {
-    case ConvergenceKind::monotone: return "monotone";
-    case ConvergenceKind::oscillating: return "oscillating";
-    case ConvergenceKind::diverging: return "diverging";
-    case ConvergenceKind::too_close: return "too close";
+    case ConvergenceKind::monotone:
+      return "monotone";
+    case ConvergenceKind::oscillating:
+      return "oscillating";
+    case ConvergenceKind::diverging:
+      return "diverging";
+    case ConvergenceKind::too_close:
+      return "too close";
   }
   return "";
 }

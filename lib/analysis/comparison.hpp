@@ -14,18 +14,18 @@ struct Curve {
 };
 
 struct ComparisonOptions {
-  double max_shift = 0.0;       ///< one constant shift of our x within +- this is allowed (a release that takes time)
+  double max_shift = 0.0;  ///< one constant shift of our x within +- this is allowed (a release that takes time)
   double from = -1e300, until = 1e300;  ///< of the reference's x
 };
 
 struct Comparison {
-  std::size_t points = 0;       ///< of the reference that lie within our range
-  double rms = 0.0, bias = 0.0; ///< of ours - reference, in the reference's unit
-  double largest = 0.0;         ///< difference largest in magnitude, with its sign
-  double largest_at = 0.0;      ///< x
-  double range = 0.0;           ///< largest - smallest value of the reference's points used
-  std::optional<double> inside; ///< share of the points inside the reference's band
-  double shift = 0.0;           ///< of our x that was applied
+  std::size_t points = 0;        ///< of the reference that lie within our range
+  double rms = 0.0, bias = 0.0;  ///< of ours - reference, in the reference's unit
+  double largest = 0.0;          ///< difference largest in magnitude, with its sign
+  double largest_at = 0.0;       ///< x
+  double range = 0.0;            ///< largest - smallest value of the reference's points used
+  std::optional<double> inside;  ///< share of the points inside the reference's band
+  double shift = 0.0;            ///< of our x that was applied
 };
 
 /// Ours is interpolated linearly at the reference's points. Throws Error(input) when no point overlaps or x does not grow.
@@ -43,7 +43,7 @@ enum class ConvergenceKind { monotone, oscillating, diverging, too_close };
 struct Convergence {
   ConvergenceKind kind = ConvergenceKind::monotone;
   double order = 0.0, extrapolated = 0.0, error_bar = 0.0;  ///< value's unit; NaN unless monotone
-  double ratio = 0.0;           ///< e21 / e32
+  double ratio = 0.0;                                       ///< e21 / e32
 };
 
 /// `spacing` and `value` of at least three runs, any order, spacings distinct; the three finest are used.

@@ -46,24 +46,52 @@ class Marcher {
   void segment(EdgeKey from, EdgeKey to) { next_.emplace(from, to), ends_.emplace(to, from); }
 
   void visit(int ix, int iy) {
-    const EdgeKey bottom = horizontal(ix, iy), top = horizontal(ix, iy + 1), left = vertical(ix, iy), right = vertical(ix + 1, iy);
+    const EdgeKey bottom = horizontal(ix, iy), top = horizontal(ix, iy + 1), left = vertical(ix, iy),
+                  right = vertical(ix + 1, iy);
     const int code = above(ix, iy) | above(ix + 1, iy) << 1 | above(ix + 1, iy + 1) << 2 | above(ix, iy + 1) << 3;
     switch (code) {
-      case 1: segment(bottom, left); break;
-      case 2: segment(right, bottom); break;
-      case 3: segment(right, left); break;
-      case 4: segment(top, right); break;
-      case 6: segment(top, bottom); break;
-      case 7: segment(top, left); break;
-      case 8: segment(left, top); break;
-      case 9: segment(bottom, top); break;
-      case 11: segment(right, top); break;
-      case 12: segment(left, right); break;
-      case 13: segment(bottom, right); break;
-      case 14: segment(left, bottom); break;
+      case 1:
+        segment(bottom, left);
+        break;
+      case 2:
+        segment(right, bottom);
+        break;
+      case 3:
+        segment(right, left);
+        break;
+      case 4:
+        segment(top, right);
+        break;
+      case 6:
+        segment(top, bottom);
+        break;
+      case 7:
+        segment(top, left);
+        break;
+      case 8:
+        segment(left, top);
+        break;
+      case 9:
+        segment(bottom, top);
+        break;
+      case 11:
+        segment(right, top);
+        break;
+      case 12:
+        segment(left, right);
+        break;
+      case 13:
+        segment(bottom, right);
+        break;
+      case 14:
+        segment(left, bottom);
+        break;
       case 5:
-      case 10: saddle(ix, iy, code == 5, bottom, top, left, right); break;
-      default: break;
+      case 10:
+        saddle(ix, iy, code == 5, bottom, top, left, right);
+        break;
+      default:
+        break;
     }
   }
 
@@ -99,6 +127,8 @@ class Marcher {
 
 }  // namespace
 
-std::vector<std::vector<Point2>> contour_lines(const Raster& raster, double value) { return Marcher(raster, value).trace(); }
+std::vector<std::vector<Point2>> contour_lines(const Raster& raster, double value) {
+  return Marcher(raster, value).trace();
+}
 
 }  // namespace gdesp::analysis

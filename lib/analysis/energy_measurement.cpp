@@ -31,7 +31,8 @@ void add_water(const FluidTable& w, const RunInfo& info, EnergyState& e) {
   for (std::size_t i = 0; i < w.position.size(); ++i) {
     height += w.position[i].z;
     if (moving) kinetic += 0.5 * square(w.velocity[i]);
-    if (!compressed || w.pressure[i] == 0.0f) continue;  // torn water, whose pressure the solver holds at 0, stores nothing
+    if (!compressed || w.pressure[i] == 0.0f)
+      continue;  // torn water, whose pressure the solver holds at 0, stores nothing
     const double r = w.density[i] / rho0, x = std::pow(r, 7) - 1.0;
     px += w.pressure[i] * x;
     xx += x * x;
@@ -90,8 +91,9 @@ void EnergyMeasurement::add(FrameView& view, const RowSink& emit) {
     return s.water_kinetic + pot_w + s.water_compression + s.solid_kinetic + s.solid_rotation + pot_s;
   };
   const double total = sum(e, e.water_potential, e.solid_potential), at_first = sum(*first_, 0.0, 0.0);
-  const double row[8] = {e.water_kinetic, e.water_potential, e.water_compression, e.solid_kinetic,
-                         e.solid_rotation, e.solid_potential, total, at_first - total};
+  const double row[8] = {e.water_kinetic, e.water_potential, e.water_compression,
+                         e.solid_kinetic, e.solid_rotation,  e.solid_potential,
+                         total,           at_first - total};
   time_.push_back(view.time());
   std::vector<Cell> cells{view.time()};
   for (int k = 0; k < 8; ++k) {
@@ -112,10 +114,18 @@ Figure EnergyMeasurement::figure() const {
   panel.note = "potential energies counted from the first frame; lost: the total missing since then";
   panel.x_label = "time t (s)";
   panel.y_label = "energy (10^{" + format_number(exponent) + "} " + (info_.dimensions == 2 ? "J/m)" : "J)");
-  const char* names[8] = {"water, kinetic", "water, potential", "water, compression", "solids, kinetic",
-                          "solids, rotation", "solids, potential", "", "lost"};
+  const char* names[8] = {"water, kinetic",
+                          "water, potential",
+                          "water, compression",
+                          "solids, kinetic",
+                          "solids, rotation",
+                          "solids, potential",
+                          "",
+                          "lost"};
   for (int k = 0; k < 8; ++k) {
-    if (k == 6 || std::all_of(value_[k].begin(), value_[k].end(), [&](double v) { return std::abs(v) < 1e-4 * largest; })) continue;
+    if (k == 6 ||
+        std::all_of(value_[k].begin(), value_[k].end(), [&](double v) { return std::abs(v) < 1e-4 * largest; }))
+      continue;
     std::vector<double> scaled = value_[k];
     for (double& v : scaled) v *= std::pow(10.0, -exponent);
     panel.series.push_back({names[k], time_, std::move(scaled), {}, {}, MarkStyle::line, {}, k == 7 ? 6 : k});
@@ -137,8 +147,9 @@ std::string EnergyMeasurement::summary() const {
   const int order = largest >= 1e3 ? std::min(5, static_cast<int>(std::log10(largest) / 3.0)) : 0;
   const double unit = std::pow(10.0, 3 * order);
   char text[160];
-  std::snprintf(text, sizeof text, "largest kinetic energy of the water %.3g %sJ, of the first total energy %.3g %sJ are lost at the end", kinetic / unit,
-                prefix[order], value_[7].back() / unit, prefix[order]);
+  std::snprintf(text, sizeof text,
+                "largest kinetic energy of the water %.3g %sJ, of the first total energy %.3g %sJ are lost at the end",
+                kinetic / unit, prefix[order], value_[7].back() / unit, prefix[order]);
   return text;
 }
 

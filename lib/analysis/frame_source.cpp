@@ -38,7 +38,7 @@ T number_of(const nlohmann::ordered_json& record, const char* key, T otherwise) 
 // detached and shares this state with the source.
 struct FrameSource::Reader {
   SourceOptions options;
-  std::vector<FramePaths> paths;      // folders and files
+  std::vector<FramePaths> paths;  // folders and files
   std::size_t at = 0, seen = 0;
   bool from_stdin = false;
   std::string case_path, run_path;
@@ -120,9 +120,7 @@ void FrameSource::Reader::read_one() {
       frame = load(*p);
       break;
     }
-  } catch (...) {
-    trouble = std::current_exception();
-  }
+  } catch (...) { trouble = std::current_exception(); }
   const std::lock_guard lock(mutex);
   ended = ended || (!frame && !trouble);
   ahead = std::move(frame);
@@ -143,7 +141,8 @@ void FrameSource::read_ahead() {
 FrameSource::FrameSource(SourceOptions options) : options_(std::move(options)), reader_(std::make_shared<Reader>()) {
   Reader& r = *reader_;
   r.options = options_;
-  if (options_.inputs.empty()) throw Error(ErrorKind::usage, "no run given: a run folder, frame files, or - (see --help)");
+  if (options_.inputs.empty())
+    throw Error(ErrorKind::usage, "no run given: a run folder, frame files, or - (see --help)");
   r.case_path = options_.case_path;
   const std::string first = options_.inputs[0];
   if (first == "-") {
@@ -156,7 +155,8 @@ FrameSource::FrameSource(SourceOptions options) : options_(std::move(options)), 
     if (r.case_path.empty() && fs::exists(fs::path(first) / "case.link")) r.case_path = run_case_path(first);
   } else {
     for (std::size_t k = 0; k < options_.inputs.size(); ++k) {
-      if (!fs::exists(options_.inputs[k])) throw Error(ErrorKind::input, options_.inputs[k] + ": no such file or run folder");
+      if (!fs::exists(options_.inputs[k]))
+        throw Error(ErrorKind::input, options_.inputs[k] + ": no such file or run folder");
       r.paths.push_back({options_.inputs[k], "", "", static_cast<double>(k) * options_.frame_interval, 0});
     }
   }
@@ -167,16 +167,21 @@ FrameSource::FrameSource(SourceOptions options) : options_(std::move(options)), 
     if (r.problem) std::rethrow_exception(r.problem);
   }
   if (!r.ahead && r.failed) throw Error(ErrorKind::numerical, "the run failed before its first frame: " + r.failure);
-  if (!r.ahead) throw Error(ErrorKind::input, first == "-" ? "standard input ended without a frame record" : first + ": no frame in the chosen time range");
+  if (!r.ahead)
+    throw Error(ErrorKind::input, first == "-" ? "standard input ended without a frame record"
+                                               : first + ": no frame in the chosen time range");
   if (!options_.case_path.empty()) r.case_path = options_.case_path;
   if (!r.case_path.empty()) info_ = read_run_info(r.case_path);
   if (!info_.has_case) {
     info_.offset = r.file_offset;
     info_.dimensions = options_.dimensions;
   }
-  if (options_.dp > 0.0) info_.dp = options_.dp;
-  else if (info_.dp <= 0.0) info_.dp = r.file_dp;
-  if (info_.dp <= 0.0) throw Error(ErrorKind::input, first + ": does not carry the particle spacing; give it with --dp METRES");
+  if (options_.dp > 0.0)
+    info_.dp = options_.dp;
+  else if (info_.dp <= 0.0)
+    info_.dp = r.file_dp;
+  if (info_.dp <= 0.0)
+    throw Error(ErrorKind::input, first + ": does not carry the particle spacing; give it with --dp METRES");
   if (!info_.has_case) complete_from_fluid(info_, r.ahead->fluid);
   if (options_.still_water) info_.still_water_level = *options_.still_water - info_.offset.z;
   info_.run_path = r.run_path;

@@ -18,16 +18,16 @@
 namespace gdesp::analysis {
 
 struct SourceOptions {
-  std::vector<std::string> inputs;         ///< one run folder; one or several frame files; or "-"
+  std::vector<std::string> inputs;  ///< one run folder; one or several frame files; or "-"
   std::vector<FieldMapping> mapping;
-  double dp = 0.0;                         ///< m; for files that do not carry it
-  int dimensions = 0;                      ///< 0: from the case, or from the data
-  std::string case_path;                   ///< overrides what the run says
-  std::optional<double> still_water;       ///< m, scene coordinates; overrides the case
+  double dp = 0.0;                    ///< m; for files that do not carry it
+  int dimensions = 0;                 ///< 0: from the case, or from the data
+  std::string case_path;              ///< overrides what the run says
+  std::optional<double> still_water;  ///< m, scene coordinates; overrides the case
   double from = -std::numeric_limits<double>::infinity(), until = std::numeric_limits<double>::infinity();  ///< s
-  int every = 1;                           ///< of the frames
-  double frame_interval = 0.0;             ///< s, for several files without times
-  bool grains = true, bodies = true;       ///< read these parts too
+  int every = 1;                      ///< of the frames
+  double frame_interval = 0.0;        ///< s, for several files without times
+  bool grains = true, bodies = true;  ///< read these parts too
   /// The next record of the producer when the input is "-"; nullopt at its end. Called from a thread of its own.
   std::function<std::optional<nlohmann::ordered_json>()> next_record;
 };

@@ -10,10 +10,10 @@
 namespace gdesp::analysis {
 namespace {
 
-constexpr double samples_per_dp = 4.0;    // of f along the vertical
-constexpr double emptiness = 0.05;        // f below which a layer has ended
-constexpr double window_in_h = 5.0;       // depth below the topmost particle that is looked at: > 4h is deep
-constexpr double smallest_layer = 0.5;    // dp of water that still is a layer
+constexpr double samples_per_dp = 4.0;  // of f along the vertical
+constexpr double emptiness = 0.05;      // f below which a layer has ended
+constexpr double window_in_h = 5.0;     // depth below the topmost particle that is looked at: > 4h is deep
+constexpr double smallest_layer = 0.5;  // dp of water that still is a layer
 
 double power(double base, int exponent) { return exponent == 2 ? base * base : base * base * base; }
 
@@ -29,8 +29,8 @@ struct FluidSampler::Column {
 
   double fraction(double z) const {
     const double reach = 2.0 * h, inverse = 1.0 / (h * h);
-    auto first = std::lower_bound(near.begin(), near.end(), z - reach,
-                                  [](const Near& a, double value) { return a.z < value; });
+    auto first =
+        std::lower_bound(near.begin(), near.end(), z - reach, [](const Near& a, double value) { return a.z < value; });
     double sum = 0.0;
     for (; first != near.end() && first->z < z + reach; ++first) {
       const double dz = z - first->z;
@@ -40,13 +40,9 @@ struct FluidSampler::Column {
   }
 };
 
-FluidSampler::FluidSampler(std::span<const Vec3d> position, std::span<const float> porosity, double dp,
-                           int dimensions)
-    : dp_(dp),
-      h_(smoothing_ratio * dp),
-      volume_(power(dp, dimensions)),
-      factor_(wendland_normalisation(h_, dimensions)),
-      grid_(position, 2.0 * h_, dimensions) {
+FluidSampler::FluidSampler(std::span<const Vec3d> position, std::span<const float> porosity, double dp, int dimensions)
+    : dp_(dp), h_(smoothing_ratio * dp), volume_(power(dp, dimensions)),
+      factor_(wendland_normalisation(h_, dimensions)), grid_(position, 2.0 * h_, dimensions) {
   if (porosity.size() != position.size()) return;
   weight_.resize(position.size());
   for (std::size_t s = 0; s < weight_.size(); ++s) {

@@ -10,7 +10,9 @@ std::optional<double> leading_edge(std::span<const Vec3d> position, const Vec3d&
                                    double common_size, std::span<const double> volume, std::span<const float> size) {
   const std::size_t n = position.size();
   if (n == 0) return std::nullopt;
-  struct Slice { double start, end, volume; };
+  struct Slice {
+    double start, end, volume;
+  };
   std::vector<Slice> slice(n);
   double total = 0.0, tip = -1e300;
 #pragma omp parallel for schedule(static) reduction(+ : total) reduction(max : tip)

@@ -39,12 +39,14 @@ std::vector<std::string> FrontMeasurement::begin(const RunInfo& info) {
   info_.walls = {};
   const double height = info.fluid_upper.z - info.fluid_lower.z + info.dp;
   scale_ = options_.scale_length > 0.0 ? options_.scale_length : height;
-  if (!(scale_ > 0.0)) throw Error(ErrorKind::input, "the run has no water to take the scale from; give --scale-length METRES");
+  if (!(scale_ > 0.0))
+    throw Error(ErrorKind::input, "the run has no water to take the scale from; give --scale-length METRES");
   if (options_.origin) {
     origin_ = *options_.origin - dot(info.offset, options_.direction);
   } else {
     const Vec3d& d = options_.direction;  // the corner of the fluid's box that lies furthest along d
-    const Vec3d corner{d.x > 0 ? info.fluid_upper.x : info.fluid_lower.x, d.y > 0 ? info.fluid_upper.y : info.fluid_lower.y, 0.0};
+    const Vec3d corner{d.x > 0 ? info.fluid_upper.x : info.fluid_lower.x,
+                       d.y > 0 ? info.fluid_upper.y : info.fluid_lower.y, 0.0};
     origin_ = dot(corner, d) + 0.5 * info.dp;
   }
   return {"t[s]", "x_front[m]", "x_tip[m]", "x_solids[m]", "t*", "x*", "x*_solids"};
@@ -91,12 +93,20 @@ Figure FrontMeasurement::figure() const {
     }
     return false;
   };
-  if (finite(water_)) panel.series.push_back({"water", t, scaled(water_, 1.0 / scale_), {}, {}, MarkStyle::line, {}, 0});
-  if (finite(solids_)) panel.series.push_back({"solids", t, scaled(solids_, 1.0 / scale_), {}, {}, MarkStyle::line, {}, 1});
+  if (finite(water_))
+    panel.series.push_back({"water", t, scaled(water_, 1.0 / scale_), {}, {}, MarkStyle::line, {}, 0});
+  if (finite(solids_))
+    panel.series.push_back({"solids", t, scaled(solids_, 1.0 / scale_), {}, {}, MarkStyle::line, {}, 1});
   if (!options_.reference.empty()) {
     const Table table = read_table(options_.reference);
-    panel.series.push_back({"reference", table.numbers(options_.reference_t), table.numbers(options_.reference_x), {}, {},
-                            MarkStyle::points, {}, 6});
+    panel.series.push_back({"reference",
+                            table.numbers(options_.reference_t),
+                            table.numbers(options_.reference_x),
+                            {},
+                            {},
+                            MarkStyle::points,
+                            {},
+                            6});
   }
   Figure figure;
   figure.panel.push_back(std::move(panel));

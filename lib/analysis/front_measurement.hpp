@@ -7,11 +7,11 @@
 namespace gdesp::analysis {
 
 struct FrontOptions {
-  Vec3d direction{1, 0, 0};            ///< unit
-  double fraction = 0.001;             ///< of the fill, beyond the front
-  double scale_length = 0.0;           ///< m; 0: height of the water at the start
-  std::optional<double> origin;        ///< m, scene coordinates along the direction; default: the water's edge at the start
-  std::string reference;               ///< CSV or TSV with t* and x*, drawn into the plot
+  Vec3d direction{1, 0, 0};      ///< unit
+  double fraction = 0.001;       ///< of the fill, beyond the front
+  double scale_length = 0.0;     ///< m; 0: height of the water at the start
+  std::optional<double> origin;  ///< m, scene coordinates along the direction; default: the water's edge at the start
+  std::string reference;         ///< CSV or TSV with t* and x*, drawn into the plot
   std::string reference_t = "t_star", reference_x = "x_star";
 };
 
@@ -28,7 +28,7 @@ class FrontMeasurement : public Measurement {
  private:
   FrontOptions options_;
   RunInfo info_;
-  double scale_ = 1.0, origin_ = 0.0;  // origin along the direction, case coordinates
+  double scale_ = 1.0, origin_ = 0.0;                // origin along the direction, case coordinates
   std::vector<double> time_, water_, tip_, solids_;  // m from the origin
 };
 

@@ -43,7 +43,8 @@ Gauge parse_gauge(const std::string& text, int number) {
   const std::string rest = equals == std::string::npos ? text : text.substr(equals + 1);
   char more = 0;
   const int found = std::sscanf(rest.c_str(), "%lf,%lf,%lf%c", &gauge.at.x, &gauge.at.y, &gauge.at.z, &more);
-  if (found != 2 && found != 3) throw Error(ErrorKind::usage, "--at " + text + ": valid is NAME=X,Y or NAME=X,Y,Z in metres");
+  if (found != 2 && found != 3)
+    throw Error(ErrorKind::usage, "--at " + text + ": valid is NAME=X,Y or NAME=X,Y,Z in metres");
   gauge.has_z = found == 3;
   return gauge;
 }
@@ -108,8 +109,8 @@ void GaugeMeasurement::finish(const RowSink& emit) {
       if (std::isfinite(level_[k][i]) && !(level_[k][i] <= level)) level = level_[k][i], at = time_[i];
       if (std::isfinite(pressure_[k][i]) && !(pressure_[k][i] <= pressure)) pressure = pressure_[k][i];
     }
-    emit({gauge_[k].name, gauge_[k].at.x + info_.offset.x, gauge_[k].at.y + info_.offset.y, arrival(k).value_or(none), level,
-          at, pressure, threshold_});
+    emit({gauge_[k].name, gauge_[k].at.x + info_.offset.x, gauge_[k].at.y + info_.offset.y, arrival(k).value_or(none),
+          level, at, pressure, threshold_});
   }
 }
 
@@ -122,11 +123,14 @@ Figure GaugeMeasurement::figure() const {
   pressure.title = "Pressure, " + plain_text(info_.name);
   pressure.y_label = "pressure (kPa)";
   for (std::size_t k = 0; k < gauge_.size(); ++k) {
-    if (any_number(level_[k])) level.series.push_back({plain_text(gauge_[k].name), time_, level_[k], {}, {}, MarkStyle::line, {}, static_cast<int>(k)});
+    if (any_number(level_[k]))
+      level.series.push_back(
+          {plain_text(gauge_[k].name), time_, level_[k], {}, {}, MarkStyle::line, {}, static_cast<int>(k)});
     if (!any_number(pressure_[k])) continue;
     std::vector<double> kilo = pressure_[k];
     for (double& p : kilo) p *= 1e-3;
-    pressure.series.push_back({plain_text(gauge_[k].name), time_, std::move(kilo), {}, {}, MarkStyle::line, {}, static_cast<int>(k)});
+    pressure.series.push_back(
+        {plain_text(gauge_[k].name), time_, std::move(kilo), {}, {}, MarkStyle::line, {}, static_cast<int>(k)});
   }
   figure.panel.push_back(std::move(level));
   if (!pressure.series.empty()) figure.panel.push_back(std::move(pressure));
@@ -138,7 +142,10 @@ std::string GaugeMeasurement::summary() const {
   for (std::size_t k = 0; k < gauge_.size(); ++k) {
     const auto t = arrival(k);
     const bool wet = std::any_of(level_[k].begin(), level_[k].end(), [](double z) { return std::isfinite(z); });
-    text += (text.empty() ? "" : "; ") + gauge_[k].name + (t ? ": arrival at t = " + format_number(std::round(*t * 1e3) / 1e3) + " s" : wet ? ": no arrival" : ": no water there at any time (particles are " + format_number(info_.dp) + " m apart)");
+    text += (text.empty() ? "" : "; ") + gauge_[k].name +
+            (t     ? ": arrival at t = " + format_number(std::round(*t * 1e3) / 1e3) + " s"
+             : wet ? ": no arrival"
+                   : ": no water there at any time (particles are " + format_number(info_.dp) + " m apart)");
   }
   return text;
 }

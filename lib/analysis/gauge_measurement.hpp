@@ -7,9 +7,9 @@
 namespace gdesp::analysis {
 
 struct GaugeOptions {
-  std::vector<Gauge> gauges;           ///< scene coordinates; empty: the scene's own
-  bool arrivals = false;               ///< print one row per gauge: arrival time, highest level, highest pressure
-  double threshold = 0.0;              ///< m, departure that counts as arrival; 0: dp / 2
+  std::vector<Gauge> gauges;  ///< scene coordinates; empty: the scene's own
+  bool arrivals = false;      ///< print one row per gauge: arrival time, highest level, highest pressure
+  double threshold = 0.0;     ///< m, departure that counts as arrival; 0: dp / 2
 };
 
 /// Level: the free surface over (x, y) of the connected water (free_surface.hpp), or of a far lake's column where one is. Pressure, where the gauge has a z: mean of
@@ -30,7 +30,7 @@ class GaugeMeasurement : public Measurement {
 
   GaugeOptions options_;
   RunInfo info_;
-  std::vector<Gauge> gauge_;            // case coordinates
+  std::vector<Gauge> gauge_;  // case coordinates
   double threshold_ = 0.0;
   std::vector<double> time_;
   std::vector<std::vector<double>> level_, pressure_;

@@ -45,8 +45,8 @@ std::string data_uri(const std::string& kind, const std::string& bytes) {
 }
 
 std::string image(const std::string& uri, const std::string& caption) {
-  return "<figure><div class=\"pan\"><img alt=\"" + escape_html(caption) + "\" src=\"" + uri + "\"></div><figcaption>" + escape_html(caption) +
-         "</figcaption></figure>\n";
+  return "<figure><div class=\"pan\"><img alt=\"" + escape_html(caption) + "\" src=\"" + uri + "\"></div><figcaption>" +
+         escape_html(caption) + "</figcaption></figure>\n";
 }
 
 }  // namespace
@@ -58,7 +58,9 @@ std::string readable_number(double value) {
   if (!std::isfinite(value)) return "–";
   const std::string text = format_number(value);
   const auto e = text.find('e');
-  return e == std::string::npos ? text : text.substr(0, e) + " × 10<sup>" + std::to_string(std::stoi(text.substr(e + 1))) + "</sup>";
+  return e == std::string::npos
+             ? text
+             : text.substr(0, e) + " × 10<sup>" + std::to_string(std::stoi(text.substr(e + 1))) + "</sup>";
 }
 
 }  // namespace
@@ -67,11 +69,20 @@ std::string escape_html(const std::string& text) {
   std::string out;
   for (const char c : text) {
     switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      default: out += c;
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
     }
   }
   return out;
@@ -133,8 +144,9 @@ std::string HtmlPage::text() const {
   }
   return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-         escape_html(title_) + "</title>\n<style>" + style + "</style></head>\n<body>\n<header><h1>" + escape_html(title_) +
-         "</h1><p>" + escape_html(subtitle_) + "</p></header>\n<nav>" + contents + "</nav>\n" + body_ + "</body></html>\n";
+         escape_html(title_) + "</title>\n<style>" + style + "</style></head>\n<body>\n<header><h1>" +
+         escape_html(title_) + "</h1><p>" + escape_html(subtitle_) + "</p></header>\n<nav>" + contents + "</nav>\n" +
+         body_ + "</body></html>\n";
 }
 
 }  // namespace gdesp::analysis

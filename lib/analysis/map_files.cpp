@@ -26,7 +26,8 @@ std::string wkt_of(const std::string& crs) {
   std::string wkt = known ? text : "";
   CPLFree(text);
   OSRDestroySpatialReference(srs);
-  if (!known) throw Error(ErrorKind::input, "terrain.crs \"" + crs + "\": GDAL does not know it; valid is e.g. EPSG:32632");
+  if (!known)
+    throw Error(ErrorKind::input, "terrain.crs \"" + crs + "\": GDAL does not know it; valid is e.g. EPSG:32632");
   return wkt;
 }
 
@@ -51,7 +52,8 @@ GDALDatasetH in_memory(const Raster& r, const Vec3d& offset, double up, const st
   return data;
 }
 
-void write_raster(const Raster& r, const Vec3d& offset, double up, const std::string& wkt, const std::string& path, bool ascii) {
+void write_raster(const Raster& r, const Vec3d& offset, double up, const std::string& wkt, const std::string& path,
+                  bool ascii) {
   GDALDatasetH data = in_memory(r, offset, up, wkt);
   const char* const tif[] = {"COMPRESS=LZW", nullptr};
   const char* const asc[] = {"DECIMAL_PRECISION=3", nullptr};
@@ -88,10 +90,13 @@ void write_lines(const MapMeasurement& map, const std::string& path) {
     if (highest > -1e300 && info.still_water_level) {
       properties["highest_above_still_water_m"] = rounded(highest - info.offset.z - *info.still_water_level);
     }
-    features.push_back({{"type", "Feature"}, {"properties", properties}, {"geometry", {{"type", "LineString"}, {"coordinates", points}}}});
+    features.push_back({{"type", "Feature"},
+                        {"properties", properties},
+                        {"geometry", {{"type", "LineString"}, {"coordinates", points}}}});
   }
   nlohmann::ordered_json collection{{"type", "FeatureCollection"}, {"name", "run_up_line"}};
-  if (!info.scene.terrain.crs.empty()) {  // GeoJSON 2008, which GDAL and QGIS read: coordinates are the terrain's, not WGS 84
+  if (!info.scene.terrain.crs
+           .empty()) {  // GeoJSON 2008, which GDAL and QGIS read: coordinates are the terrain's, not WGS 84
     std::string name = info.scene.terrain.crs;
     if (name.rfind("EPSG:", 0) == 0) name = "urn:ogc:def:crs:EPSG::" + name.substr(5);
     collection["crs"] = {{"type", "name"}, {"properties", {{"name", name}}}};

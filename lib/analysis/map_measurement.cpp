@@ -34,22 +34,27 @@ Raster empty_like(const Raster& r) {
 
 std::vector<std::string> MapMeasurement::begin(const RunInfo& info) {
   info_ = info;
-  if (info.dimensions == 2) throw Error(ErrorKind::input, info.name + ": a map needs a run in three dimensions; see profile");
+  if (info.dimensions == 2)
+    throw Error(ErrorKind::input, info.name + ": a map needs a run in three dimensions; see profile");
   const double cell = options_.cell > 0.0 ? options_.cell : info.dp;
   threshold_ = options_.threshold > 0.0 ? options_.threshold : 0.5 * info.dp;
   const Vec3d size = info.domain.upper - info.domain.lower;
   if (size.x / cell * (size.y / cell) > static_cast<double>(most_cells)) {
-    throw Error(ErrorKind::usage, "--cell " + format_number(cell) + ": makes more than 100 million cells; take a larger one");
+    throw Error(ErrorKind::usage,
+                "--cell " + format_number(cell) + ": makes more than 100 million cells; take a larger one");
   }
   // Cell centres on multiples of the cell in the scene's own coordinates, so that maps of several runs lie on top of each other.
-  const auto snap = [&](double value, double offset) { return std::floor((value + offset) / cell) * cell + 0.5 * cell - offset; };
+  const auto snap = [&](double value, double offset) {
+    return std::floor((value + offset) / cell) * cell + 0.5 * cell - offset;
+  };
   const Vec3d lower{snap(info.domain.lower.x, info.offset.x), snap(info.domain.lower.y, info.offset.y), 0.0};
   ground_ = make_raster(lower, info.domain.upper, cell, 3);
   const WallSurface walls(info.walls);
   info_.walls = {};
 #pragma omp parallel for schedule(dynamic, 256)
   for (std::size_t k = 0; k < ground_.value.size(); ++k) {
-    const auto z = walls.height(ground_.x(static_cast<int>(k % ground_.nx)), ground_.y(static_cast<int>(k / ground_.nx)));
+    const auto z =
+        walls.height(ground_.x(static_cast<int>(k % ground_.nx)), ground_.y(static_cast<int>(k / ground_.nx)));
     if (z) ground_.value[k] = static_cast<float>(*z);
   }
   first_ = level_ = depth_ = arrival_ = last_departure_ = empty_like(ground_);
@@ -73,9 +78,11 @@ void MapMeasurement::add(FrameView& view, const RowSink&) {
     const float start = first_.value[k];
     const double departure = std::isfinite(start) ? std::abs(z - start) : threshold_;
     const double before = std::isfinite(last_departure_.value[k]) ? last_departure_.value[k] : 0.0;
-    if (!std::isfinite(start)) arrival_.value[k] = static_cast<float>(t);
+    if (!std::isfinite(start))
+      arrival_.value[k] = static_cast<float>(t);
     else if (departure > threshold_)
-      arrival_.value[k] = static_cast<float>(last_time_ + (threshold_ - before) / (departure - before) * (t - last_time_));
+      arrival_.value[k] =
+          static_cast<float>(last_time_ + (threshold_ - before) / (departure - before) * (t - last_time_));
     last_departure_.value[k] = static_cast<float>(departure);
   }
   any_ = true;
@@ -129,7 +136,8 @@ std::vector<double> MapMeasurement::contour_levels() const {
     if (step < (high - low) / 20.0) step = m * unit;
   }
   const double up = info_.offset.z, first = std::ceil((low + up) / step);
-  const int most = static_cast<int>((high - low) / step) + 1;   // (a range below the rounding of `up` would never be left by steps)
+  const int most =
+      static_cast<int>((high - low) / step) + 1;  // (a range below the rounding of `up` would never be left by steps)
   for (int k = 0; k < most && (first + k) * step < high + up; ++k) levels.push_back((first + k) * step - up);
   return levels;
 }
@@ -172,13 +180,15 @@ Figure MapMeasurement::figure() const {
 
 std::string MapMeasurement::summary() const {
   std::size_t wet = 0, before = 0;
-  for (std::size_t k = 0; k < level_.value.size(); ++k) wet += std::isfinite(level_.value[k]), before += std::isfinite(first_.value[k]);
+  for (std::size_t k = 0; k < level_.value.size(); ++k)
+    wet += std::isfinite(level_.value[k]), before += std::isfinite(first_.value[k]);
   const double area = level_.dx * level_.dx;
-  const bool large = area * static_cast<double>(wet) >= 1e5;   // m2
+  const bool large = area * static_cast<double>(wet) >= 1e5;  // m2
   const double unit = large ? 1e6 : 1.0;
   char text[160];
-  std::snprintf(text, sizeof text, "the water reached %.4g %s, of which %.4g %s were water at the start", area * static_cast<double>(wet) / unit, large ? "km2" : "m2",
-                area * static_cast<double>(before) / unit, large ? "km2" : "m2");
+  std::snprintf(text, sizeof text, "the water reached %.4g %s, of which %.4g %s were water at the start",
+                area * static_cast<double>(wet) / unit, large ? "km2" : "m2", area * static_cast<double>(before) / unit,
+                large ? "km2" : "m2");
   return text;
 }
 

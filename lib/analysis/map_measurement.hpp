@@ -14,8 +14,8 @@
 namespace gdesp::analysis {
 
 struct MapOptions {
-  double cell = 0.0;                  ///< m; 0: dp
-  double threshold = 0.0;             ///< m, for arrival and wet; 0: dp / 2
+  double cell = 0.0;       ///< m; 0: dp
+  double threshold = 0.0;  ///< m, for arrival and wet; 0: dp / 2
 };
 
 /// A line of the run-up: case coordinates, z on the ground.

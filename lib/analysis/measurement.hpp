@@ -26,11 +26,11 @@ class FrameView {
   const RunInfo& info() const { return info_; }
   double time() const { return frame_.time; }
 
-  const ColumnGrid& grid();              ///< all fluid particles
-  const ConnectedWater& connected();     ///< main body and splash
+  const ColumnGrid& grid();                                ///< all fluid particles
+  const ConnectedWater& connected();                       ///< main body and splash
   ConnectedWater connected(const ConnectivityRule& rule);  ///< the same by another rule; not kept
-  const FluidSampler& water();           ///< the main body alone
-  const FluidSampler& all_water();       ///< splash included
+  const FluidSampler& water();                             ///< the main body alone
+  const FluidSampler& all_water();                         ///< splash included
   const std::vector<Vec3d>& main_positions();
 
  private:

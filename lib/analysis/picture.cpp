@@ -67,7 +67,8 @@ class Painter {
   void find_focus() {
     const auto take = [&](const std::vector<Vec3d>& points, double floor) {
       const std::size_t step = points.size() / 1000 + 1;
-      for (std::size_t k = 0; k < points.size(); k += step) focus_.push_back({points[k].x, points[k].y, std::max(points[k].z, floor)});
+      for (std::size_t k = 0; k < points.size(); k += step)
+        focus_.push_back({points[k].x, points[k].y, std::max(points[k].z, floor)});
     };
     const double floor = has_terrain() && info_.still_water_level ? *info_.still_water_level : -1e300;
     take(frame_.fluid.position, floor);
@@ -80,7 +81,8 @@ class Painter {
   }
 
   double focus_height() const {
-    const auto [low, high] = std::minmax_element(focus_.begin(), focus_.end(), [](const Vec3d& a, const Vec3d& b) { return a.z < b.z; });
+    const auto [low, high] =
+        std::minmax_element(focus_.begin(), focus_.end(), [](const Vec3d& a, const Vec3d& b) { return a.z < b.z; });
     return high->z - low->z;
   }
 
@@ -146,8 +148,9 @@ class Painter {
   }
 
   void add_text() {
-    const std::string name = !options_.title.empty() ? options_.title
-                             : !info_.scene.title.empty() ? info_.scene.title : info_.name;
+    const std::string name = !options_.title.empty()      ? options_.title
+                             : !info_.scene.title.empty() ? info_.scene.title
+                                                          : info_.name;
     char time[64];
     std::snprintf(time, sizeof time, "t = %.4g s", frame_.time);
     put_text(renderer_, name, 0.02, 0.940, 27);
@@ -155,7 +158,8 @@ class Painter {
     std::string small = "particle spacing " + format_number(info_.dp) + " m";
     if (!frame_.grains.position.empty() || !frame_.bodies.triangle.empty()) small += "   ·   orange: slide";
     if (info_.still_water_level && has_terrain()) small += "   ·   blue line: still-water shore";
-    if (options_.vertical_exaggeration != 1.0) small += "   ·   heights x " + format_number(options_.vertical_exaggeration);
+    if (options_.vertical_exaggeration != 1.0)
+      small += "   ·   heights x " + format_number(options_.vertical_exaggeration);
     put_text(renderer_, small, 0.02, 0.862, 18);
   }
 
@@ -172,7 +176,8 @@ class Painter {
   void place_camera() {
     const double azimuth = chosen_azimuth() * std::numbers::pi / 180.0;
     const double elevation = options_.elevation * std::numbers::pi / 180.0;
-    const Vec3d towards{std::cos(elevation) * std::sin(azimuth), std::cos(elevation) * std::cos(azimuth), std::sin(elevation)};
+    const Vec3d towards{std::cos(elevation) * std::sin(azimuth), std::cos(elevation) * std::cos(azimuth),
+                        std::sin(elevation)};
     const double half_view = 13.0 * std::numbers::pi / 180.0;
     Vec3d middle = focus_middle();
     double distance = 0.0;
@@ -180,7 +185,8 @@ class Painter {
     distance /= options_.zoom;
     vtkCamera* camera = renderer_->GetActiveCamera();
     camera->SetFocalPoint(middle.x, middle.y, middle.z);
-    camera->SetPosition(middle.x + distance * towards.x, middle.y + distance * towards.y, middle.z + distance * towards.z);
+    camera->SetPosition(middle.x + distance * towards.x, middle.y + distance * towards.y,
+                        middle.z + distance * towards.z);
     camera->SetViewUp(0.0, 0.0, 1.0);
     camera->SetViewAngle(2.0 * half_view * 180.0 / std::numbers::pi);
     renderer_->ResetCameraClippingRange();
@@ -191,7 +197,8 @@ class Painter {
   void place_flat_camera() {
     Vec3d low = focus_[0], high = focus_[0];
     for (const Vec3d& p : focus_) {
-      for (int axis = 0; axis < 3; ++axis) low[axis] = std::min(low[axis], p[axis]), high[axis] = std::max(high[axis], p[axis]);
+      for (int axis = 0; axis < 3; ++axis)
+        low[axis] = std::min(low[axis], p[axis]), high[axis] = std::max(high[axis], p[axis]);
     }
     const Vec3d middle = (low + high) * 0.5, size = high - low;
     const double half = 0.5 * std::max(size.z / 0.78, size.x / (0.92 * aspect())) / options_.zoom;
@@ -216,7 +223,8 @@ class Painter {
     double distance = info_.dp;
     for (const Vec3d& c : corner) {
       const double toward_camera = dot(c, towards);
-      distance = std::max({distance, toward_camera + std::abs(dot(c, side)) / (0.88 * wide), toward_camera + std::abs(dot(c, up)) / (0.80 * tangent)});
+      distance = std::max({distance, toward_camera + std::abs(dot(c, side)) / (0.88 * wide),
+                           toward_camera + std::abs(dot(c, up)) / (0.80 * tangent)});
     }
     double left = 1e300, right = -1e300, low = 1e300, high = -1e300;
     for (const Vec3d& c : corner) {
@@ -276,7 +284,7 @@ class Painter {
           int sum = 0;
           for (int k = 0; k < supersampling * supersampling; ++k) {
             sum += static_cast<unsigned char*>(large->GetScalarPointer(x * supersampling + k % supersampling,
-                                                                      y * supersampling + k / supersampling, 0))[c];
+                                                                       y * supersampling + k / supersampling, 0))[c];
           }
           out[c] = static_cast<unsigned char>(sum / (supersampling * supersampling));
         }

@@ -32,7 +32,8 @@ namespace {
 constexpr std::size_t most_balls = 120000;   // above it grains are drawn as points
 constexpr std::size_t most_cells = 1000000;  // of a lake's sheet
 
-vtkNew<vtkPolyData> triangles_to_vtk(const std::vector<Vec3d>& vertex, const std::vector<Vec3<std::int32_t>>& triangle) {
+vtkNew<vtkPolyData> triangles_to_vtk(const std::vector<Vec3d>& vertex,
+                                     const std::vector<Vec3<std::int32_t>>& triangle) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToFloat();
   for (const Vec3d& v : vertex) points->InsertNextPoint(v.x, v.y, v.z);
@@ -101,7 +102,8 @@ void add_contours(const PictureScene& scene, vtkPolyData* terrain, const double*
       const double base = scene.info.offset.z;  // round numbers in the scene's own elevations
       const double first = std::ceil((range[0] + base) / step);
       const int most = static_cast<int>((range[1] - range[0]) / step) + 1;
-      while (count < most && (first + count) * step - base < range[1]) contour->SetValue(count, (first + count) * step - base), ++count;
+      while (count < most && (first + count) * step - base < range[1])
+        contour->SetValue(count, (first + count) * step - base), ++count;
     }
     contour->SetNumberOfContours(count);
     vtkNew<vtkPolyDataMapper> mapper;
@@ -112,8 +114,10 @@ void add_contours(const PictureScene& scene, vtkPolyData* terrain, const double*
     auto actor = put(scene, mapper);
     actor->GetProperty()->SetLighting(false);
     actor->GetProperty()->SetLineWidth(static_cast<float>(supersampling) * (shore ? 1.6f : 0.7f));
-    if (shore) actor->GetProperty()->SetColor(0.0, 0.2, 0.45);
-    else actor->GetProperty()->SetColor(0.30, 0.27, 0.22);
+    if (shore)
+      actor->GetProperty()->SetColor(0.0, 0.2, 0.45);
+    else
+      actor->GetProperty()->SetColor(0.30, 0.27, 0.22);
     actor->GetProperty()->SetOpacity(shore ? 0.9 : 0.40);
   };
   lines(false);
@@ -161,7 +165,8 @@ void add_plinth(const PictureScene& scene, vtkPolyData* terrain, const double* r
 
 void add_terrain(const PictureScene& scene, vtkPolyData* data) {
   std::vector<float> elevation;
-  for (vtkIdType k = 0; k < data->GetNumberOfPoints(); ++k) elevation.push_back(static_cast<float>(data->GetPoint(k)[2]));
+  for (vtkIdType k = 0; k < data->GetNumberOfPoints(); ++k)
+    elevation.push_back(static_cast<float>(data->GetPoint(k)[2]));
   set_scalars(data, "elevation", elevation);
   double range[2];
   data->GetPointData()->GetScalars()->GetRange(range);
@@ -170,7 +175,8 @@ void add_terrain(const PictureScene& scene, vtkPolyData* data) {
   normals->SetFeatureAngle(50.0);
   normals->ConsistencyOff();
   vtkNew<vtkLookupTable> tint;  // muted, so that the water and the slide carry the colours
-  fill_table(tint, {{0.42, 0.43, 0.33}, {0.52, 0.56, 0.41}, {0.66, 0.66, 0.53}, {0.78, 0.75, 0.67}, {0.93, 0.92, 0.90}});
+  fill_table(tint,
+             {{0.42, 0.43, 0.33}, {0.52, 0.56, 0.41}, {0.66, 0.66, 0.53}, {0.78, 0.75, 0.67}, {0.93, 0.92, 0.90}});
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputConnection(normals->GetOutputPort());
   mapper->SetLookupTable(tint);
@@ -262,7 +268,8 @@ std::vector<float> speeds(const std::vector<Vec3f>& velocity) {
   return speed;
 }
 
-void add_surface(const PictureScene& scene, vtkPolyData* data, const std::vector<float>& speed, vtkLookupTable* colours) {
+void add_surface(const PictureScene& scene, vtkPolyData* data, const std::vector<float>& speed,
+                 vtkLookupTable* colours) {
   vtkNew<vtkPolyDataNormals> normals;
   vtkNew<vtkPolyDataMapper> mapper;
   colour_by_speed(data, mapper, speed, colours);
@@ -301,23 +308,28 @@ void add_lake(const PictureScene& scene, vtkLookupTable* colours) {
 }  // namespace
 
 void fill_speed_colours(vtkLookupTable* table, double largest) {
-  fill_table(table, {{0.07, 0.22, 0.48}, {0.10, 0.40, 0.66}, {0.16, 0.60, 0.72}, {0.50, 0.79, 0.58}, {0.98, 0.88, 0.25}});
+  fill_table(table,
+             {{0.07, 0.22, 0.48}, {0.10, 0.40, 0.66}, {0.16, 0.60, 0.72}, {0.50, 0.79, 0.58}, {0.98, 0.88, 0.25}});
   table->SetTableRange(0.0, largest);
 }
 
 void add_ground(const PictureScene& scene) {
   auto data = walls_at_rest(scene.info);
   if (data->GetNumberOfCells() == 0) return;
-  if (scene.info.dimensions == 2) add_outline(scene, data);
-  else if (scene.has_terrain()) add_terrain(scene, data);
-  else add_tank(scene, data);
+  if (scene.info.dimensions == 2)
+    add_outline(scene, data);
+  else if (scene.has_terrain())
+    add_terrain(scene, data);
+  else
+    add_tank(scene, data);
 }
 
 bool add_water(const PictureScene& scene, vtkLookupTable* colours) {
   const FluidTable& fluid = scene.frame.fluid;
   if (fluid.position.empty()) return false;
   if (scene.info.dimensions == 2) {
-    add_balls(scene, fluid.position, {static_cast<float>(1.1 * scene.info.dp)}, speeds(fluid.velocity), colours, {0.13, 0.40, 0.68});
+    add_balls(scene, fluid.position, {static_cast<float>(1.1 * scene.info.dp)}, speeds(fluid.velocity), colours,
+              {0.13, 0.40, 0.68});
   } else if (scene.has_terrain()) {
     add_lake(scene, colours);
   } else {

@@ -33,9 +33,12 @@ const char* const dashes[] = {"1", "'-'", "'.-'", "'-..'", "'.'", "'- .'", "1", 
 std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
-    if (c == '\n') out += "\\n";
-    else if (c == '"' || c == '\\') (out += '\\') += c;
-    else out += c;
+    if (c == '\n')
+      out += "\\n";
+    else if (c == '"' || c == '\\')
+      (out += '\\') += c;
+    else
+      out += c;
   }
   return out + '"';
 }
@@ -94,34 +97,57 @@ std::string curve(const std::string& block, const Series& s, int number, bool al
   const std::string colour = std::string(" lc rgb '") + palette[c] + "'";
   const std::string point = colour + " pt " + std::to_string(marks[c]) + " ps 0.7";
   switch (s.style) {
-    case MarkStyle::line: out << "$" << block << " with lines lw 2" << colour << " dt " << dash; break;
-    case MarkStyle::thin: out << "$" << block << " with lines lw 0.5" << colour << " dt 1"; break;
-    case MarkStyle::dashes: out << "$" << block << " with lines lw 1.2 dt '-'" << colour; break;
-    case MarkStyle::points:
-      if (s.low.empty()) out << "$" << block << " with points" << point;
-      else out << "$" << block << " using 1:2:3:4 with yerrorbars" << point;
+    case MarkStyle::line:
+      out << "$" << block << " with lines lw 2" << colour << " dt " << dash;
       break;
-    case MarkStyle::line_points: out << "$" << block << " with linespoints lw 1.5" << point << " dt " << dash; break;
-    case MarkStyle::band: out << "$" << block << " using 1:3:4 with filledcurves" << colour; break;
-    case MarkStyle::steps: out << "$" << block << " with fsteps lw 2" << colour << " dt " << dash; break;
-    case MarkStyle::impulses: out << "$" << block << " with impulses lw 2" << colour; break;
+    case MarkStyle::thin:
+      out << "$" << block << " with lines lw 0.5" << colour << " dt 1";
+      break;
+    case MarkStyle::dashes:
+      out << "$" << block << " with lines lw 1.2 dt '-'" << colour;
+      break;
+    case MarkStyle::points:
+      if (s.low.empty())
+        out << "$" << block << " with points" << point;
+      else
+        out << "$" << block << " using 1:2:3:4 with yerrorbars" << point;
+      break;
+    case MarkStyle::line_points:
+      out << "$" << block << " with linespoints lw 1.5" << point << " dt " << dash;
+      break;
+    case MarkStyle::band:
+      out << "$" << block << " using 1:3:4 with filledcurves" << colour;
+      break;
+    case MarkStyle::steps:
+      out << "$" << block << " with fsteps lw 2" << colour << " dt " << dash;
+      break;
+    case MarkStyle::impulses:
+      out << "$" << block << " with impulses lw 2" << colour;
+      break;
   }
   out << title;
   if (!s.name.empty()) {
-    out << ", $" << block << " using 1:2:5 with labels offset character 0.8,0.6 left font ',8' tc rgb '#333333' notitle";
+    out << ", $" << block
+        << " using 1:2:5 with labels offset character 0.8,0.6 left font ',8' tc rgb '#333333' notitle";
   }
   return out.str();
 }
 
-struct Range { double low = INFINITY, high = -INFINITY; };
+struct Range {
+  double low = INFINITY, high = -INFINITY;
+};
 
 Range range_of(const Panel& p, bool vertical) {
   Range r;
-  const auto take = [&](double v) { if (std::isfinite(v)) r.low = std::min(r.low, v), r.high = std::max(r.high, v); };
+  const auto take = [&](double v) {
+    if (std::isfinite(v)) r.low = std::min(r.low, v), r.high = std::max(r.high, v);
+  };
   for (const Series& s : p.series) {
     for (const double v : vertical ? s.y : s.x) take(v);
-    if (vertical) for (const double v : s.low) take(v);
-    if (vertical) for (const double v : s.high) take(v);
+    if (vertical)
+      for (const double v : s.low) take(v);
+    if (vertical)
+      for (const double v : s.high) take(v);
   }
   return r;
 }
@@ -135,7 +161,7 @@ void write_log_ticks(std::ostream& out, const char* axis, const Range& r) {
   out << "set " << axis << "tics (";
   const char* between = "";
   const int lowest = static_cast<int>(std::floor(std::log10(r.low))) - 1;
-  for (int power = lowest; power < lowest + 6; ++power) {   // low to 100 low, and one more on either side
+  for (int power = lowest; power < lowest + 6; ++power) {  // low to 100 low, and one more on either side
     const double decade = std::pow(10.0, power);
     if (decade > 10.0 * r.high) break;
     for (const double m : {1.0, 2.0, 5.0}) {
@@ -155,8 +181,10 @@ void write_range(std::ostream& out, const char* axis, const Range& r, bool log, 
     out << "set " << axis << "range [0:1]\n";
   } else if (r.high - r.low < 1e-12 * std::max(1.0, std::abs(r.high))) {
     const double pad = log ? 0.0 : std::max(0.5 * std::abs(r.high), 0.5e-3);
-    if (log) out << "set " << axis << "range [" << 0.5 * r.low << ":" << 2.0 * r.high << "]\n";
-    else out << "set " << axis << "range [" << r.low - pad << ":" << r.high + pad << "]\n";
+    if (log)
+      out << "set " << axis << "range [" << 0.5 * r.low << ":" << 2.0 * r.high << "]\n";
+    else
+      out << "set " << axis << "range [" << r.low - pad << ":" << r.high + pad << "]\n";
   } else {
     out << "set " << axis << "range [*:*] " << (reverse ? "reverse" : "noreverse") << "\n";
   }
@@ -176,21 +204,28 @@ std::size_t legend_rows(const std::vector<Series>& series, std::size_t columns) 
   return (named + columns - 1) / columns;
 }
 
-struct Page { double width_mm; bool svg; };
+struct Page {
+  double width_mm;
+  bool svg;
+};
 
 // The legend below the axis, columns as wide as its longest name needs. gnuplot measures text by its own guess, which is
 // wide for SVG, and would rather break a row than pass the margin.
 std::size_t legend_columns(const std::vector<Series>& series, const Page& page) {
   std::size_t longest = 1;
   for (const Series& s : series) longest = std::max(longest, s.label.size());
-  const double column_mm = page.svg ? 22.0 + 2.9 * static_cast<double>(longest) : 18.0 + 1.9 * static_cast<double>(longest);
+  const double column_mm =
+      page.svg ? 22.0 + 2.9 * static_cast<double>(longest) : 18.0 + 1.9 * static_cast<double>(longest);
   return std::clamp<std::size_t>(static_cast<std::size_t>(page.width_mm / column_mm), 1, 4);
 }
 
 void write_legend(std::ostream& out, const std::vector<Series>& series, const Page& page) {
   const std::size_t columns = legend_columns(series, page), rows = legend_rows(series, columns);
-  if (rows == 0) out << "unset key\nset bmargin 3.6\n";
-  else out << "set key bmargin center horizontal maxcols " << columns << " maxrows " << rows << " noopaque\nset bmargin " << 4.4 + 1.3 * static_cast<double>(rows) << "\n";
+  if (rows == 0)
+    out << "unset key\nset bmargin 3.6\n";
+  else
+    out << "set key bmargin center horizontal maxcols " << columns << " maxrows " << rows << " noopaque\nset bmargin "
+        << 4.4 + 1.3 * static_cast<double>(rows) << "\n";
 }
 
 bool has_numbers(const Series& s) {
@@ -201,28 +236,37 @@ bool has_numbers(const Series& s) {
 }
 
 void write_panel(std::ostream& out, const Panel& p, int index, const Page& page) {
-  out << "set title " << quoted((p.title.empty() ? "" : "{/*1.08 " + p.title + "}") + small_print(p.note)) << " offset 0,-0.3\nset xlabel " << quoted(p.x_label)
-      << "\nset ylabel " << quoted(p.y_label) << "\n"
+  out << "set title " << quoted((p.title.empty() ? "" : "{/*1.08 " + p.title + "}") + small_print(p.note))
+      << " offset 0,-0.3\nset xlabel " << quoted(p.x_label) << "\nset ylabel " << quoted(p.y_label) << "\n"
       << (p.log_x ? "set logscale x\n" : "unset logscale x\n") << (p.log_y ? "set logscale y\n" : "unset logscale y\n")
       << (p.equal_axes ? "set size ratio -1\n" : "");
   const Range x = range_of(p, false), y = range_of(p, true);
   const auto format = [](bool log, const Range& r) { return log && r.high > 100.0 * r.low ? "10^{%T}" : "%g"; };
   out << "set format x '" << format(p.log_x, x) << "'\nset format y '" << format(p.log_y, y) << "'\n";
-  if (std::isfinite(p.x_low) && std::isfinite(p.x_high)) out << "set xrange [" << p.x_low << ":" << p.x_high << "]\n";
-  else write_range(out, "x", x, p.log_x, false);
-  if (std::isfinite(p.y_low) && std::isfinite(p.y_high)) out << "set yrange [" << p.y_low << ":" << p.y_high << "]\n";
-  else write_range(out, "y", y, p.log_y, p.reverse_y);
-  if (p.log_x) write_log_ticks(out, "x", x);
-  else out << "set xtics auto\n";
-  if (p.log_y) write_log_ticks(out, "y", y);
-  else out << "set ytics auto\n";
+  if (std::isfinite(p.x_low) && std::isfinite(p.x_high))
+    out << "set xrange [" << p.x_low << ":" << p.x_high << "]\n";
+  else
+    write_range(out, "x", x, p.log_x, false);
+  if (std::isfinite(p.y_low) && std::isfinite(p.y_high))
+    out << "set yrange [" << p.y_low << ":" << p.y_high << "]\n";
+  else
+    write_range(out, "y", y, p.log_y, p.reverse_y);
+  if (p.log_x)
+    write_log_ticks(out, "x", x);
+  else
+    out << "set xtics auto\n";
+  if (p.log_y)
+    write_log_ticks(out, "y", y);
+  else
+    out << "set ytics auto\n";
   write_legend(out, p.series, page);
   std::string command;
   for (std::size_t k = 0; k < p.series.size(); ++k) {
     const std::string block = "p" + std::to_string(index) + "s" + std::to_string(k);
     if (!has_numbers(p.series[k])) continue;
     write_block(out, block, p.series[k]);
-    command += (command.empty() ? "plot " : ", \\\n  ") + curve(block, p.series[k], static_cast<int>(k), p.series.size() == 1);
+    command +=
+        (command.empty() ? "plot " : ", \\\n  ") + curve(block, p.series[k], static_cast<int>(k), p.series.size() == 1);
   }
   out << (command.empty() ? "plot NaN notitle" : command) << "\n";
 }
@@ -245,9 +289,12 @@ void write_map(std::ostream& out, const ColourMap& m, int index) {
     }
     out << '\n';
   }
-  out << "EOD\nset title " << quoted("{/*1.08 " + m.title + "}" + small_print(m.note)) << "\nset xlabel " << quoted(m.x_label) << "\nset ylabel "
-      << quoted(m.y_label) << "\nset cblabel " << quoted(m.value_label) << " offset 1.6,0\nset format cb '%g'"
-      << "\nset rmargin 12\nunset key\nunset bmargin\nunset logscale\nset size ratio -1\nset format x '%.7g'\nset format y '%.7g'\nset style fill solid 1 noborder\nset xtics " << tick_step(m.nx * m.dx) << "\n";
+  out << "EOD\nset title " << quoted("{/*1.08 " + m.title + "}" + small_print(m.note)) << "\nset xlabel "
+      << quoted(m.x_label) << "\nset ylabel " << quoted(m.y_label) << "\nset cblabel " << quoted(m.value_label)
+      << " offset 1.6,0\nset format cb '%g'"
+      << "\nset rmargin 12\nunset key\nunset bmargin\nunset logscale\nset size ratio -1\nset format x '%.7g'\nset "
+         "format y '%.7g'\nset style fill solid 1 noborder\nset xtics "
+      << tick_step(m.nx * m.dx) << "\n";
   out << "set xrange [" << m.x0 - 0.5 * m.dx << ":" << m.x0 + (m.nx - 0.5) * m.dx << "]\nset yrange ["
       << m.y0 - 0.5 * m.dx << ":" << m.y0 + (m.ny - 0.5) * m.dx << "]\n";
   for (std::size_t k = 0; k < m.overlay.size(); ++k) {
@@ -256,7 +303,8 @@ void write_map(std::ostream& out, const ColourMap& m, int index) {
   out << "unset datafile missing\nplot $m" << index << " matrix using (" << m.x0 << "+$1*" << m.dx << "):(" << m.y0
       << "+$2*" << m.dx << "):3 with image notitle";
   for (std::size_t k = 0; k < m.overlay.size(); ++k) {
-    out << ", \\\n  " << curve("m" + std::to_string(index) + "s" + std::to_string(k), m.overlay[k], static_cast<int>(k) + 6);
+    out << ", \\\n  "
+        << curve("m" + std::to_string(index) + "s" + std::to_string(k), m.overlay[k], static_cast<int>(k) + 6);
   }
   out << "\nset datafile missing 'nan'\n";
 }
@@ -309,8 +357,10 @@ std::string script(const Figure& f, const std::string& kind, const std::string& 
   for (std::size_t k = 0; k < heights.size(); ++k) {
     top -= heights[k];
     if (several) out << "set origin 0," << top / height << "\nset size noratio 1," << heights[k] / height << "\n";
-    if (k < panel.size()) write_panel(out, panel[k], static_cast<int>(k), page);
-    else write_map(out, f.map[k - panel.size()], static_cast<int>(k - panel.size()));
+    if (k < panel.size())
+      write_panel(out, panel[k], static_cast<int>(k), page);
+    else
+      write_map(out, f.map[k - panel.size()], static_cast<int>(k - panel.size()));
   }
   if (several) out << "unset multiplot\n";
   out << "unset output\n";
@@ -352,8 +402,7 @@ void run_gnuplot(const std::string& commands, const std::string& log) {
   ::close(ends[1]);
   std::signal(SIGPIPE, before);
   int status = 0;
-  while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
-  }
+  while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {}
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
     throw Error(ErrorKind::resource, "gnuplot failed: " + read_all(log).substr(0, 500));
   }

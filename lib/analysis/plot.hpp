@@ -13,7 +13,7 @@ namespace gdesp::analysis {
 enum class MarkStyle { line, thin, points, line_points, dashes, band, impulses, steps };
 
 struct Series {
-  std::string label;              ///< empty: not in the legend
+  std::string label;  ///< empty: not in the legend
   std::vector<double> x, y;
   std::vector<double> low, high;  ///< band, or error bars where given with points
   MarkStyle style = MarkStyle::line;
@@ -26,18 +26,18 @@ struct Panel {
   std::vector<Series> series;
   bool log_x = false, log_y = false, equal_axes = false;
   bool reverse_y = false;
-  std::string note;               ///< small print under the title
+  std::string note;                                             ///< small print under the title
   double x_low = NAN, x_high = NAN, y_low = NAN, y_high = NAN;  ///< where the data's own range is not wanted
 };
 
 /// A coloured map: value(ix, iy) at x0 + ix dx, y0 + iy dx; NaN stays white.
 struct ColourMap {
   std::string title, x_label, y_label, value_label;
-  std::string note;               ///< small print under the title
+  std::string note;  ///< small print under the title
   double x0 = 0, y0 = 0, dx = 1;
   int nx = 0, ny = 0;
   std::vector<float> value;
-  std::vector<Series> overlay;    ///< lines on top; named in the note
+  std::vector<Series> overlay;  ///< lines on top; named in the note
 };
 
 struct Figure {

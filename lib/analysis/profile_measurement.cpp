@@ -74,11 +74,13 @@ void ProfileMeasurement::choose_line() {
   if (!(length > 0.0)) throw Error(ErrorKind::usage, "the profile's line has no length; give --line x1,y1,x2,y2");
   const double step = options_.step > 0.0 ? options_.step : info_.dp;
   const int count = static_cast<int>(std::floor(length / step + 1e-9)) + 1;
-  if (count > 2000000) throw Error(ErrorKind::usage, "--step " + format_number(step) + " makes more than 2 million points");
+  if (count > 2000000)
+    throw Error(ErrorKind::usage, "--step " + format_number(step) + " makes more than 2 million points");
   for (int k = 0; k < count; ++k) {
     const double s = k * step, share = s / length;
     distance_.push_back(s);
-    point_.push_back({line_.from.x + share * (line_.to.x - line_.from.x), line_.from.y + share * (line_.to.y - line_.from.y)});
+    point_.push_back(
+        {line_.from.x + share * (line_.to.x - line_.from.x), line_.from.y + share * (line_.to.y - line_.from.y)});
   }
 }
 
@@ -160,8 +162,11 @@ Figure ProfileMeasurement::figure() const {
     const Curve& c = curve_[k];
     const std::string at = "t = " + format_number(c.time) + " s";
     const bool solids = std::any_of(c.solids.begin(), c.solids.end(), [](double z) { return std::isfinite(z); });
-    panel.series.push_back({"water, " + at, distance_, lifted(c.water), {}, {}, MarkStyle::line, {}, static_cast<int>(j)});
-    if (solids) panel.series.push_back({"slide, " + at, distance_, lifted(c.solids), {}, {}, MarkStyle::dashes, {}, static_cast<int>(j)});
+    panel.series.push_back(
+        {"water, " + at, distance_, lifted(c.water), {}, {}, MarkStyle::line, {}, static_cast<int>(j)});
+    if (solids)
+      panel.series.push_back(
+          {"slide, " + at, distance_, lifted(c.solids), {}, {}, MarkStyle::dashes, {}, static_cast<int>(j)});
   }
   const double range = drawn_range(panel);
   figure.panel.push_back(std::move(panel));
@@ -182,14 +187,24 @@ std::optional<Panel> ProfileMeasurement::above_still_water(std::size_t shown, do
     const std::size_t k = shown == curve_.size() ? j : j * (curve_.size() - 1) / (shown - 1);
     std::vector<double> rise = curve_[k].water;
     for (double& z : rise) z -= *info_.still_water_level;
-    panel.series.push_back({"t = " + format_number(curve_[k].time) + " s", distance_, std::move(rise), {}, {}, MarkStyle::line, {}, static_cast<int>(j)});
+    panel.series.push_back({"t = " + format_number(curve_[k].time) + " s",
+                            distance_,
+                            std::move(rise),
+                            {},
+                            {},
+                            MarkStyle::line,
+                            {},
+                            static_cast<int>(j)});
   }
   return drawn_range(panel) < 0.3 * range ? std::optional(panel) : std::nullopt;
 }
 
 std::string ProfileMeasurement::summary() const {
-  return std::to_string(curve_.size()) + " profiles of " + std::to_string(point_.size()) + " points along " + line_.name +
-         (late_ ? "; no frame as late as t = " + format_number(*late_) + " s, the last one is taken (t = " + format_number(curve_.back().time) + " s)" : "");
+  return std::to_string(curve_.size()) + " profiles of " + std::to_string(point_.size()) + " points along " +
+         line_.name +
+         (late_ ? "; no frame as late as t = " + format_number(*late_) +
+                      " s, the last one is taken (t = " + format_number(curve_.back().time) + " s)"
+                : "");
 }
 
 }  // namespace gdesp::analysis

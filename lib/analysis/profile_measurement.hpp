@@ -8,11 +8,11 @@
 namespace gdesp::analysis {
 
 struct ProfileOptions {
-  std::string section;                 ///< of the scene; empty and no line: the domain's middle line along x
-  std::optional<Section> line;         ///< scene coordinates
-  double step = 0.0;                   ///< m; 0: dp
-  std::vector<double> times;           ///< s; empty: every frame
-  bool solids = true;                  ///< the slide's surface too
+  std::string section;          ///< of the scene; empty and no line: the domain's middle line along x
+  std::optional<Section> line;  ///< scene coordinates
+  double step = 0.0;            ///< m; 0: dp
+  std::vector<double> times;    ///< s; empty: every frame
+  bool solids = true;           ///< the slide's surface too
 };
 
 /// Two-dimensional runs: the line is the x axis over the fluid and the slide.
@@ -28,7 +28,10 @@ class ProfileMeasurement : public Measurement {
   Figure figure() const override;
   std::string summary() const override;
 
-  struct Curve { double time = 0.0; std::vector<double> water, solids; };
+  struct Curve {
+    double time = 0.0;
+    std::vector<double> water, solids;
+  };
   const std::vector<Curve>& curves() const { return curve_; }
   const std::vector<double>& distance() const { return distance_; }
 
@@ -40,13 +43,13 @@ class ProfileMeasurement : public Measurement {
 
   ProfileOptions options_;
   RunInfo info_;
-  Section line_;                        // case coordinates
+  Section line_;  // case coordinates
   std::vector<double> distance_, bed_;
   std::vector<Point2> point_;
   std::vector<Curve> curve_;
-  std::optional<Curve> last_;           // the frame before, to pick the nearest to a wanted time
+  std::optional<Curve> last_;  // the frame before, to pick the nearest to a wanted time
   std::size_t next_time_ = 0;
-  std::optional<double> late_;          // a wanted time past the last frame
+  std::optional<double> late_;  // a wanted time past the last frame
 };
 
 /// Height of the highest sphere surface over each point; NaN where none. `reach` m: grains' horizontal distance.

@@ -18,6 +18,7 @@ struct ReportOptions {
 /// Reads every frame once and writes the page aside, then renames it. What the run lacks (gauges, grains, a case, a
 /// log) is left out, and said where it matters. `progress` as in run_measurements. Returns the warnings on the page.
 std::vector<std::string> write_report(FrameSource& source, const SourceOptions& options, const ReportOptions& report,
-                                      const std::string& path, const std::function<void(double, double)>& progress = {});
+                                      const std::string& path,
+                                      const std::function<void(double, double)>& progress = {});
 
 }  // namespace gdesp::analysis

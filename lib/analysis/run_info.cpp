@@ -64,9 +64,7 @@ RunInfo read_run_info(const std::string& case_path) {
 
 void complete_from_fluid(RunInfo& info, const FluidTable& fluid) {
   find_extent(info, fluid.position);
-  if (info.dimensions == 0) {
-    info.dimensions = info.fluid_upper.y - info.fluid_lower.y < 0.5 * info.dp ? 2 : 3;
-  }
+  if (info.dimensions == 0) { info.dimensions = info.fluid_upper.y - info.fluid_lower.y < 0.5 * info.dp ? 2 : 3; }
   info.domain = {info.fluid_lower, info.fluid_upper};
 }
 

@@ -13,21 +13,21 @@
 namespace gdesp::analysis {
 
 struct RunInfo {
-  std::string name;                        ///< for titles and legends: the run folder's or file's name
-  std::string run_path;                    ///< run folder; empty for single files
-  std::string case_path;                   ///< empty: no case known
+  std::string name;       ///< for titles and legends: the run folder's or file's name
+  std::string run_path;   ///< run folder; empty for single files
+  std::string case_path;  ///< empty: no case known
   bool has_case = false;
-  Scene scene;                             ///< defaults where there is no case
-  Vec3d offset;                            ///< m; scene coordinates = case coordinates + offset
-  Box domain;                              ///< m, case coordinates
+  Scene scene;   ///< defaults where there is no case
+  Vec3d offset;  ///< m; scene coordinates = case coordinates + offset
+  Box domain;    ///< m, case coordinates
   int dimensions = 3;
-  double dp = 0.0;                         ///< m
-  std::optional<double> still_water_level; ///< m, case coordinates
-  TriangleTable walls;                     ///< case coordinates; empty without a case
-  Vec3d fluid_lower, fluid_upper;          ///< m, bounds of the fluid's particles at the start (first frame without a case)
+  double dp = 0.0;                          ///< m
+  std::optional<double> still_water_level;  ///< m, case coordinates
+  TriangleTable walls;                      ///< case coordinates; empty without a case
+  Vec3d fluid_lower, fluid_upper;  ///< m, bounds of the fluid's particles at the start (first frame without a case)
   std::size_t fluid_count = 0;
-  LongAxis lake;                           ///< of the fluid at the start, case coordinates
-  std::optional<Vec3d> slide_centre;       ///< m, of the grains (or rigid bodies) at the start
+  LongAxis lake;                      ///< of the fluid at the start, case coordinates
+  std::optional<Vec3d> slide_centre;  ///< m, of the grains (or rigid bodies) at the start
   double fluid_density() const { return scene.fluid.density; }
   double gravity() const { return -scene.gravity.z; }
 };

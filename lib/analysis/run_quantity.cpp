@@ -61,7 +61,8 @@ double last_front(FrameSource& source, const std::string& direction) {
 
 RunQuantity measure_quantity(const SourceOptions& options, const std::string& quantity) {
   const auto colon = quantity.find(':');
-  const std::string kind = quantity.substr(0, colon), argument = colon == std::string::npos ? "" : quantity.substr(colon + 1);
+  const std::string kind = quantity.substr(0, colon),
+                    argument = colon == std::string::npos ? "" : quantity.substr(colon + 1);
   const bool needs_argument = kind == "arrival" || kind == "level";
   if ((kind != "runup" && kind != "front" && !needs_argument) || (needs_argument && argument.empty())) {
     throw Error(ErrorKind::usage, "--quantity " + quantity + ": valid are " + quantity_help());
@@ -72,10 +73,14 @@ RunQuantity measure_quantity(const SourceOptions& options, const std::string& qu
   q.particles = source.info().fluid_count;
   if (source.info().has_case) q.preset = source.info().scene.numerics.preset;
   q.unit = kind == "arrival" ? "s" : "m";
-  if (kind == "runup") q.value = highest_run_up(source, argument);
-  else if (kind == "front") q.value = last_front(source, argument);
-  else if (kind == "arrival") q.value = gauge_value(source, argument, "t_arrival");
-  else q.value = gauge_value(source, argument, "level_max");
+  if (kind == "runup")
+    q.value = highest_run_up(source, argument);
+  else if (kind == "front")
+    q.value = last_front(source, argument);
+  else if (kind == "arrival")
+    q.value = gauge_value(source, argument, "t_arrival");
+  else
+    q.value = gauge_value(source, argument, "level_max");
   return q;
 }
 

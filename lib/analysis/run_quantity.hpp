@@ -11,9 +11,9 @@ namespace gdesp::analysis {
 struct RunQuantity {
   double value = 0.0;
   std::string unit;
-  double dp = 0.0;          ///< m
+  double dp = 0.0;  ///< m
   std::size_t particles = 0;
-  std::string preset;       ///< of the case; empty without one
+  std::string preset;  ///< of the case; empty without one
 };
 
 /// `quantity`: "runup" or "runup:REGION" (highest run-up, m), "front" or "front:DIR" (leading edge of the water in the last frame, m
@@ -21,8 +21,6 @@ struct RunQuantity {
 RunQuantity measure_quantity(const SourceOptions& source, const std::string& quantity);
 
 /// For --help.
-inline const char* quantity_help() {
-  return "runup, runup:REGION, front, front:DIR, arrival:GAUGE or level:GAUGE";
-}
+inline const char* quantity_help() { return "runup, runup:REGION, front, front:DIR, arrival:GAUGE or level:GAUGE"; }
 
 }  // namespace gdesp::analysis

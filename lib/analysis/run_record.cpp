@@ -15,8 +15,10 @@ template <class T>
 T value_or(const nlohmann::ordered_json& json, const char* key, T otherwise) {
   const auto it = json.find(key);
   if (it == json.end()) return otherwise;
-  if constexpr (std::is_same_v<T, std::string>) return it->is_string() ? it->get<std::string>() : otherwise;
-  else return it->is_number() ? it->get<T>() : otherwise;
+  if constexpr (std::is_same_v<T, std::string>)
+    return it->is_string() ? it->get<std::string>() : otherwise;
+  else
+    return it->is_number() ? it->get<T>() : otherwise;
 }
 
 }  // namespace
@@ -74,7 +76,8 @@ RunLog read_run_log(const std::string& run_folder) {
         log.value.emplace_back(lines - 1, std::numeric_limits<double>::quiet_NaN());
         it = log.name.end() - 1;
       }
-      log.value[static_cast<std::size_t>(it - log.name.begin())].push_back(item.is_number() ? item.get<double>() : magnitude(item));
+      log.value[static_cast<std::size_t>(it - log.name.begin())].push_back(item.is_number() ? item.get<double>()
+                                                                                            : magnitude(item));
     }
     for (auto& column : log.value) column.resize(lines, std::numeric_limits<double>::quiet_NaN());
   }

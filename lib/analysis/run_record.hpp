@@ -12,8 +12,8 @@ namespace gdesp::analysis {
 struct RunRecord {
   std::string command, device, device_name, version, commit, status;
   int threads = 0;
-  double wall_seconds = 0.0, simulated = 0.0, score = 0.0;  ///< s, s, the paper's N = n t / T
-  nlohmann::ordered_json json;                              ///< all of it
+  double wall_seconds = 0.0, simulated = 0.0, score = 0.0;                          ///< s, s, the paper's N = n t / T
+  nlohmann::ordered_json json;                                                      ///< all of it
   double cost() const { return simulated > 0.0 ? wall_seconds / simulated : 0.0; }  ///< wall s per simulated s
 };
 

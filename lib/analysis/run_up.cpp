@@ -35,24 +35,27 @@ void visit_near(const ColumnGrid& grid, std::size_t s, double distance, const Vi
 bool is_single_layer(const ColumnGrid& grid, std::size_t s, double dp, const WallSurface& walls) {
   if (!walls.nearest(grid.position(s), dp)) return false;
   bool single = true;
-  visit_near(grid, s, 1.5 * dp, [&](std::size_t t) { single = single && walls.nearest(grid.position(t), dp).has_value(); });
+  visit_near(grid, s, 1.5 * dp,
+             [&](std::size_t t) { single = single && walls.nearest(grid.position(t), dp).has_value(); });
   return single;
 }
 
 /// Per slot: the water that counts, the main body and the film that its edge has thinned to (run_up.hpp).
-std::vector<std::uint8_t> main_body_and_film(const ColumnGrid& grid, const ConnectedWater& water, const BankContact& at, const WallSurface& walls) {
+std::vector<std::uint8_t> main_body_and_film(const ColumnGrid& grid, const ConnectedWater& water, const BankContact& at,
+                                             const WallSurface& walls) {
   std::vector<std::uint8_t> counts(grid.size());
   std::vector<std::size_t> edge;
   for (std::size_t s = 0; s < grid.size(); ++s) counts[s] = water.main[grid.index(s)];
   if (walls.empty()) return counts;
   const auto is_above = [&](std::size_t s) { return grid.position(s).z + 0.5 * at.dp > at.still_water_level; };
   for (std::size_t s = 0; s < grid.size(); ++s) {
-    if (!counts[s] && !water.torn[grid.index(s)] && is_above(s) && is_single_layer(grid, s, at.dp, walls)) edge.push_back(s);
+    if (!counts[s] && !water.torn[grid.index(s)] && is_above(s) && is_single_layer(grid, s, at.dp, walls))
+      edge.push_back(s);
   }
   const int needed = grid.dimensions() == 2 ? 1 : 3;
   for (std::size_t before = edge.size() + 1; before > edge.size();) {
     before = edge.size();
-    std::vector<std::size_t> joined;   // all that join in this round, so that their order is without effect
+    std::vector<std::size_t> joined;  // all that join in this round, so that their order is without effect
     std::erase_if(edge, [&](std::size_t s) {
       int neighbours = 0;
       visit_near(grid, s, at.contact, [&](std::size_t t) { neighbours += counts[t]; });
@@ -64,8 +67,8 @@ std::vector<std::uint8_t> main_body_and_film(const ColumnGrid& grid, const Conne
   return counts;
 }
 
-std::vector<BankParticle> find_bank_particles(const ColumnGrid& grid, const std::vector<std::uint8_t>& counts, const BankContact& at,
-                                              const WallSurface& walls) {
+std::vector<BankParticle> find_bank_particles(const ColumnGrid& grid, const std::vector<std::uint8_t>& counts,
+                                              const BankContact& at, const WallSurface& walls) {
   std::vector<BankParticle> result;
 #pragma omp parallel
   {
@@ -93,8 +96,8 @@ std::vector<BankParticle> find_bank_particles(const ColumnGrid& grid, const std:
 
 }  // namespace
 
-RunUpFrame measure_run_up(const ColumnGrid& grid, const ConnectedWater& water, const BankContact& at, const WallSurface& walls,
-                          std::span<const BankRegion> regions) {
+RunUpFrame measure_run_up(const ColumnGrid& grid, const ConnectedWater& water, const BankContact& at,
+                          const WallSurface& walls, std::span<const BankRegion> regions) {
   RunUpFrame frame;
   const std::vector<std::uint8_t> counts = main_body_and_film(grid, water, at, walls);
   frame.on_bank = find_bank_particles(grid, counts, at, walls);

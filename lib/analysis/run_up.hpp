@@ -34,7 +34,7 @@ namespace gdesp::analysis {
 struct BankRegion {
   std::string name;
   std::vector<Point2> polygon;
-  std::optional<Point2> side_of;     ///< with `side_axis`: only the half plane to the left of the axis through it
+  std::optional<Point2> side_of;  ///< with `side_axis`: only the half plane to the left of the axis through it
   Point2 side_axis;
   bool contains(double x, double y) const;
 };
@@ -42,21 +42,21 @@ struct BankRegion {
 bool point_in_polygon(const std::vector<Point2>& polygon, double x, double y);
 
 struct RunUpRule {
-  double contact = 2.6;          ///< dp; distance from the wall at which water counts as lying on it
+  double contact = 2.6;  ///< dp; distance from the wall at which water counts as lying on it
   ConnectivityRule connectivity;
 };
 
 struct RunUpReading {
-  double height = 0.0;           ///< m above still water, connected sheet
-  Vec3d at;                      ///< where; case coordinates
-  bool climbs = false;           ///< anything above still water at all
-  double splash = 0.0;           ///< m above still water, highest particle that is not connected; 0: none
+  double height = 0.0;  ///< m above still water, connected sheet
+  Vec3d at;             ///< where; case coordinates
+  bool climbs = false;  ///< anything above still water at all
+  double splash = 0.0;  ///< m above still water, highest particle that is not connected; 0: none
 };
 
 /// One particle of the sheet that lies above still water on a bank.
 struct BankParticle {
   Vec3d position;
-  double height;                 ///< z + dp/2 - still water, m
+  double height;  ///< z + dp/2 - still water, m
 };
 
 struct RunUpFrame {
@@ -65,11 +65,13 @@ struct RunUpFrame {
 };
 
 /// Level and contact distance of a reading, m.
-struct BankContact { double dp, still_water_level, contact; };
+struct BankContact {
+  double dp, still_water_level, contact;
+};
 
 /// `walls` empty: every particle of the main body counts as on a bank (a file without its case).
-RunUpFrame measure_run_up(const ColumnGrid& grid, const ConnectedWater& water, const BankContact& at, const WallSurface& walls,
-                          std::span<const BankRegion> regions);
+RunUpFrame measure_run_up(const ColumnGrid& grid, const ConnectedWater& water, const BankContact& at,
+                          const WallSurface& walls, std::span<const BankRegion> regions);
 
 /// Highest run-up in bins along a straight line (a section, or the lake's long axis), over all frames added.
 class ShoreProfile {
@@ -78,7 +80,11 @@ class ShoreProfile {
   ShoreProfile(Point2 from, Point2 to, double width);
   void add(double time, std::span<const BankParticle> particles, const BankRegion& region);
 
-  struct Bin { double distance = 0.0, height = 0.0, time = 0.0; Vec3d at; bool any = false; };
+  struct Bin {
+    double distance = 0.0, height = 0.0, time = 0.0;
+    Vec3d at;
+    bool any = false;
+  };
   const std::vector<Bin>& bins() const { return bins_; }
 
  private:
@@ -88,7 +94,9 @@ class ShoreProfile {
 };
 
 /// The line through the centroid of the points along their longest extent (principal axis), end to end.
-struct LongAxis { Point2 from, to, centre, direction; };
+struct LongAxis {
+  Point2 from, to, centre, direction;
+};
 LongAxis find_long_axis(std::span<const Vec3d> position);
 
 }  // namespace gdesp::analysis

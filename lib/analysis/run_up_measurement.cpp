@@ -64,9 +64,10 @@ void RunUpMeasurement::choose_line() {
 
 void RunUpMeasurement::add(FrameView& view, const RowSink& emit) {
   const ConnectedWater connected = view.connected(options_.rule.connectivity);
-  most_torn_ = std::max(most_torn_, static_cast<std::size_t>(std::count(connected.torn.begin(), connected.torn.end(), 1)));
-  const RunUpFrame f = measure_run_up(view.grid(), connected, {info_.dp, still_, options_.rule.contact * info_.dp}, walls_,
-                                      regions_);
+  most_torn_ =
+      std::max(most_torn_, static_cast<std::size_t>(std::count(connected.torn.begin(), connected.torn.end(), 1)));
+  const RunUpFrame f =
+      measure_run_up(view.grid(), connected, {info_.dp, still_, options_.rule.contact * info_.dp}, walls_, regions_);
   time_.push_back(view.time());
   profile_->add(view.time(), f.on_bank, regions_[profile_region_]);
   const double none = std::numeric_limits<double>::quiet_NaN();
@@ -98,15 +99,23 @@ Panel RunUpMeasurement::against_time() const {
   panel.y_label = "above still water (m)";
   panel.note = "connected water on a wall; reading resolves dp = " + format_number(info_.dp) + " m";
   for (std::size_t k = 0; k < regions_.size(); ++k) {
-    panel.series.push_back({regions_[k].name == "all" ? "whole shore" : plain_text(regions_[k].name), time_, height_[k], {}, {},
-                            MarkStyle::line, {}, static_cast<int>(k)});
+    panel.series.push_back({regions_[k].name == "all" ? "whole shore" : plain_text(regions_[k].name),
+                            time_,
+                            height_[k],
+                            {},
+                            {},
+                            MarkStyle::line,
+                            {},
+                            static_cast<int>(k)});
   }
   panel.y_low = 0.0;
   panel.y_high = maximum_[0].height > 0.0 ? 1.25 * maximum_[0].height : info_.dp;
   double highest_splash = 0.0;
   bool shown = false;
-  for (const double s : splash_[0]) highest_splash = std::max(highest_splash, std::isfinite(s) ? s : 0.0), shown = shown || s <= panel.y_high;
-  if (highest_splash > panel.y_high) panel.note += "; splash up to " + format_number(std::round(10 * highest_splash) / 10) + " m";
+  for (const double s : splash_[0])
+    highest_splash = std::max(highest_splash, std::isfinite(s) ? s : 0.0), shown = shown || s <= panel.y_high;
+  if (highest_splash > panel.y_high)
+    panel.note += "; splash up to " + format_number(std::round(10 * highest_splash) / 10) + " m";
   if (shown) panel.series.push_back({"splash", time_, splash_[0], {}, {}, MarkStyle::points, {}, 7});
   return panel;
 }
@@ -114,15 +123,19 @@ Panel RunUpMeasurement::against_time() const {
 Panel RunUpMeasurement::along_shore() const {
   Panel panel;
   const auto place = [&](const Point2& p) {
-    return "(" + format_number(std::round(p.x + info_.offset.x)) + ", " + format_number(std::round(p.y + info_.offset.y)) + ")";
+    return "(" + format_number(std::round(p.x + info_.offset.x)) + ", " +
+           format_number(std::round(p.y + info_.offset.y)) + ")";
   };
   const auto& bins = profile_->bins();
   const double width = bins.size() > 1 ? bins[1].distance - bins[0].distance : 2.0 * bins[0].distance;
-  panel.title = "Highest run-up along the shore, " + (regions_[profile_region_].name == "all" ? "whole shore" : plain_text(regions_[profile_region_].name));
+  panel.title = "Highest run-up along the shore, " +
+                (regions_[profile_region_].name == "all" ? "whole shore" : plain_text(regions_[profile_region_].name));
   panel.x_label = "distance along " + plain_text(line_.name) + " (m)";
   panel.y_label = "highest run-up (m)";
-  panel.note = "from " + place(line_.from) + " to " + place(line_.to) + "; places " + format_number(width) + " m wide; bars: dp/2";
-  Series area{"", {}, {}, {}, {}, MarkStyle::band, {}, 0}, highest{"", {}, {}, {}, {}, MarkStyle::line, {}, 0}, reading{"", {}, {}, {}, {}, MarkStyle::points, {}, 0};
+  panel.note = "from " + place(line_.from) + " to " + place(line_.to) + "; places " + format_number(width) +
+               " m wide; bars: dp/2";
+  Series area{"", {}, {}, {}, {}, MarkStyle::band, {}, 0}, highest{"", {}, {}, {}, {}, MarkStyle::line, {}, 0},
+      reading{"", {}, {}, {}, {}, MarkStyle::points, {}, 0};
   const double none = std::numeric_limits<double>::quiet_NaN();
   const auto put = [&](double x, double y) {
     highest.x.push_back(x), highest.y.push_back(y);
@@ -137,7 +150,8 @@ Panel RunUpMeasurement::along_shore() const {
     put(bin.distance - 0.5 * width, bin.height);
     put(bin.distance + 0.5 * width, bin.height);
     reading.x.push_back(bin.distance), reading.y.push_back(bin.height);
-    reading.low.push_back(std::max(0.0, bin.height - 0.5 * info_.dp)), reading.high.push_back(bin.height + 0.5 * info_.dp);
+    reading.low.push_back(std::max(0.0, bin.height - 0.5 * info_.dp)),
+        reading.high.push_back(bin.height + 0.5 * info_.dp);
     last = bin.distance + 0.5 * width;
     top = std::max(top, bin.height + 0.5 * info_.dp);
   }

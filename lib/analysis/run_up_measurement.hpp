@@ -8,10 +8,10 @@
 namespace gdesp::analysis {
 
 struct RunUpOptions {
-  bool along_shore = false;           ///< the table by place instead of by time
-  std::string section;                ///< the line along which places are counted; empty: chosen
-  std::string region;                 ///< for the table along the shore; empty: far bank, or the first of the scene
-  double bin = 0.0;                   ///< m; 0: 4 dp
+  bool along_shore = false;  ///< the table by place instead of by time
+  std::string section;       ///< the line along which places are counted; empty: chosen
+  std::string region;        ///< for the table along the shore; empty: far bank, or the first of the scene
+  double bin = 0.0;          ///< m; 0: 4 dp
   RunUpRule rule;
 };
 
@@ -25,10 +25,17 @@ class RunUpMeasurement : public Measurement {
   std::string summary() const override;
 
   /// The highest reading of each region over all frames.
-  struct Maximum { std::string region; double height = 0.0, time = 0.0; Vec3d at; bool climbs = false; };
+  struct Maximum {
+    std::string region;
+    double height = 0.0, time = 0.0;
+    Vec3d at;
+    bool climbs = false;
+  };
   const std::vector<Maximum>& maxima() const { return maximum_; }
   const ShoreProfile& shore() const { return *profile_; }
-  std::size_t most_torn() const { return most_torn_; }  ///< largest number of torn particles in a frame (connected_water.hpp)
+  std::size_t most_torn() const {
+    return most_torn_;
+  }  ///< largest number of torn particles in a frame (connected_water.hpp)
 
  private:
   void choose_line();
@@ -41,7 +48,7 @@ class RunUpMeasurement : public Measurement {
   WallSurface walls_;
   std::vector<BankRegion> regions_;
   std::size_t profile_region_ = 0;
-  Section line_;                       // case coordinates
+  Section line_;  // case coordinates
   std::optional<ShoreProfile> profile_;
   std::vector<double> time_;
   std::vector<std::vector<double>> height_, splash_;  // per region

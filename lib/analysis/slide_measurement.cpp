@@ -53,10 +53,13 @@ std::vector<std::string> SlideMeasurement::begin(const RunInfo& info) {
   if (options_.direction) {
     direction_ = *options_.direction;
   } else if (info.slide_centre && info.fluid_count > 0) {
-    const Vec3d to{info.lake.centre.x - info.slide_centre->x, info.dimensions == 2 ? 0.0 : info.lake.centre.y - info.slide_centre->y, 0.0};
+    const Vec3d to{info.lake.centre.x - info.slide_centre->x,
+                   info.dimensions == 2 ? 0.0 : info.lake.centre.y - info.slide_centre->y, 0.0};
     if (norm(to) > 0.0) direction_ = to * (1.0 / norm(to));
   }
-  return {"t[s]", "x[m]", "y[m]", "z[m]", "vx[m/s]", "vy[m/s]", "vz[m/s]", "speed[m/s]", "front_travel[m]",
+  return {"t[s]",         "x[m]",       "y[m]",
+          "z[m]",         "vx[m/s]",    "vy[m/s]",
+          "vz[m/s]",      "speed[m/s]", "front_travel[m]",
           "submerged[-]", "volume[m3]", "fastest[m/s]"};
 }
 
@@ -64,7 +67,8 @@ void SlideMeasurement::add(FrameView& view, const RowSink& emit) {
   const Frame& f = view.frame();
   const bool grains = !f.grains.position.empty();
   if (!grains && f.bodies.triangle.empty()) {
-    throw Error(ErrorKind::input, info_.name + ": the frame at t = " + format_number(view.time()) + " s has neither grains nor bodies");
+    throw Error(ErrorKind::input,
+                info_.name + ": the frame at t = " + format_number(view.time()) + " s has neither grains nor bodies");
   }
   const LevelRaster levels(view, grains ? f.grains.position : f.bodies.vertex);
   const LevelAt level = [&](double x, double y) { return levels.at(x, y); };
@@ -85,8 +89,8 @@ void SlideMeasurement::add(FrameView& view, const RowSink& emit) {
   travel_.push_back(front ? *front - *first_front_ : none);
   depth_.push_back(at.z);
   submerged_.push_back(s.submerged);
-  emit({view.time(), at.x, at.y, at.z, s.velocity.x, s.velocity.y, s.velocity.z, speed_.back(), travel_.back(), s.submerged,
-        s.volume, grains ? s.fastest : none});
+  emit({view.time(), at.x, at.y, at.z, s.velocity.x, s.velocity.y, s.velocity.z, speed_.back(), travel_.back(),
+        s.submerged, s.volume, grains ? s.fastest : none});
 }
 
 Figure SlideMeasurement::figure() const {
@@ -113,8 +117,9 @@ std::string SlideMeasurement::summary() const {
   double fastest = 0.0;
   for (const double v : speed_) fastest = std::max(fastest, std::isfinite(v) ? v : 0.0);
   char text[160];
-  std::snprintf(text, sizeof text, "slide: fastest %.3g m/s (centre of mass), front travelled %.4g m, %.3g %% submerged at the end", fastest, travel_.back(),
-                100.0 * submerged_.back());
+  std::snprintf(text, sizeof text,
+                "slide: fastest %.3g m/s (centre of mass), front travelled %.4g m, %.3g %% submerged at the end",
+                fastest, travel_.back(), 100.0 * submerged_.back());
   return text;
 }
 

@@ -8,8 +8,8 @@
 namespace gdesp::analysis {
 
 struct SlideOptions {
-  std::optional<Vec3d> direction;      ///< of the front; default: from the slide to the lake's middle, else x
-  double fraction = 0.001;             ///< of the slide's volume that lies beyond its front
+  std::optional<Vec3d> direction;  ///< of the front; default: from the slide to the lake's middle, else x
+  double fraction = 0.001;         ///< of the slide's volume that lies beyond its front
 };
 
 class SlideMeasurement : public Measurement {

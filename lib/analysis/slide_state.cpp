@@ -44,7 +44,10 @@ SlideState measure_grains(const GrainTable& g, int dimensions, const LevelAt& le
 
 namespace {
 
-struct BodySums { double volume = 0.0, wet = 0.0; Vec3d moment; };
+struct BodySums {
+  double volume = 0.0, wet = 0.0;
+  Vec3d moment;
+};
 
 // A triangle and the vertical prism below it: signed volume A_xy z, from the body's lowest point up.
 void add_triangle(const Vec3d& a, const Vec3d& b, const Vec3d& c, double base, double piece, int depth,

@@ -17,11 +17,11 @@ double cap_share(double centre_z, double diameter, double level, int dimensions)
 using LevelAt = std::function<std::optional<double>(double x, double y)>;
 
 struct SlideState {
-  double volume = 0.0;             ///< m3 (m2 in two dimensions), of solids
-  double mass = 0.0;               ///< kg; grains only
-  Vec3d centre, velocity;          ///< m, m/s, of the centre of mass; velocity NaN for a body's first frame
-  double fastest = 0.0;            ///< m/s; grains only
-  double submerged = 0.0;          ///< share of the volume below the water's surface, 0..1
+  double volume = 0.0;     ///< m3 (m2 in two dimensions), of solids
+  double mass = 0.0;       ///< kg; grains only
+  Vec3d centre, velocity;  ///< m, m/s, of the centre of mass; velocity NaN for a body's first frame
+  double fastest = 0.0;    ///< m/s; grains only
+  double submerged = 0.0;  ///< share of the volume below the water's surface, 0..1
 };
 
 /// Mass-weighted sums over grains. In parallel.

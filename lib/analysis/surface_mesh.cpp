@@ -20,9 +20,9 @@
 namespace gdesp::analysis {
 namespace {
 
-constexpr double ball = 1.3;                   // radius in dp
+constexpr double ball = 1.3;                    // radius in dp
 constexpr double inwards = 0.72;                // in dp
-constexpr double narrow = 1.5, standard = 3.0; // half width of the band in voxels: for triangles, for a file
+constexpr double narrow = 1.5, standard = 3.0;  // half width of the band in voxels: for triangles, for a file
 
 openvdb::FloatGrid::Ptr make_level_set(std::span<const Vec3d> position, const SurfaceOptions& options,
                                        double half_width) {
@@ -35,8 +35,10 @@ openvdb::FloatGrid::Ptr make_level_set(std::span<const Vec3d> position, const Su
   for (const VoxelTile& tile : closed_union(position, {voxel, ball * options.dp, inwards * options.dp, half_width})) {
     auto leaf = std::make_unique<Leaf>(openvdb::Coord(tile.first.x, tile.first.y, tile.first.z), end);
     for (openvdb::Index i = 0; i < Leaf::SIZE; ++i) {
-      if (std::abs(tile.value[i]) < end) leaf->setValueOn(i, tile.value[i]);
-      else leaf->setValueOff(i, tile.value[i] < 0.0f ? -end : end);
+      if (std::abs(tile.value[i]) < end)
+        leaf->setValueOn(i, tile.value[i]);
+      else
+        leaf->setValueOff(i, tile.value[i] < 0.0f ? -end : end);
     }
     grid->tree().addLeaf(leaf.release());
   }
@@ -63,7 +65,8 @@ std::vector<std::uint32_t> near_surface(const std::vector<Vec3d>& vertex, std::s
 #pragma omp parallel for schedule(static)
   for (std::size_t i = 0; i < position.size(); ++i) needed[i] = cells.contains(key(position[i], 0, 0, 0));
   std::vector<std::uint32_t> result;
-  for (std::size_t i = 0; i < position.size(); ++i) if (needed[i]) result.push_back(static_cast<std::uint32_t>(i));
+  for (std::size_t i = 0; i < position.size(); ++i)
+    if (needed[i]) result.push_back(static_cast<std::uint32_t>(i));
   return result;
 }
 

@@ -17,14 +17,14 @@
 namespace gdesp::analysis {
 
 struct SurfaceOptions {
-  double dp = 0.0;                ///< m
-  double voxel = 0.0;             ///< m; 0: dp / 2
+  double dp = 0.0;     ///< m
+  double voxel = 0.0;  ///< m; 0: dp / 2
 };
 
 struct SurfaceMesh {
-  std::vector<Vec3d> vertex;                  ///< m, case coordinates
-  std::vector<Vec3<std::int32_t>> triangle;   ///< outward by the right-hand rule
-  std::vector<Vec3f> velocity;                ///< m/s, at the vertices; empty without velocities
+  std::vector<Vec3d> vertex;                 ///< m, case coordinates
+  std::vector<Vec3<std::int32_t>> triangle;  ///< outward by the right-hand rule
+  std::vector<Vec3f> velocity;               ///< m/s, at the vertices; empty without velocities
 };
 
 /// Triangles of the surface of the fluid; with velocities, each vertex takes the weighted mean of the particles

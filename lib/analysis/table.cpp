@@ -41,10 +41,14 @@ std::vector<std::string> split_line(const std::string& line, char separator) {
   bool quoted = false;
   for (std::size_t k = 0; k < line.size(); ++k) {
     const char c = line[k];
-    if (quoted && c == '"' && k + 1 < line.size() && line[k + 1] == '"') field.back() += '"', ++k;
-    else if (c == '"') quoted = !quoted;
-    else if (c == separator && !quoted) field.emplace_back();
-    else if (c != '\r') field.back() += c;
+    if (quoted && c == '"' && k + 1 < line.size() && line[k + 1] == '"')
+      field.back() += '"', ++k;
+    else if (c == '"')
+      quoted = !quoted;
+    else if (c == separator && !quoted)
+      field.emplace_back();
+    else if (c != '\r')
+      field.back() += c;
   }
   for (std::string& f : field) {
     const auto first = f.find_first_not_of(' '), last = f.find_last_not_of(' ');

@@ -11,12 +11,8 @@ namespace {
 
 constexpr std::uint32_t leaf_size = 4;
 
-Vec3d lower_of(const Vec3d& a, const Vec3d& b) {
-  return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
-}
-Vec3d upper_of(const Vec3d& a, const Vec3d& b) {
-  return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
-}
+Vec3d lower_of(const Vec3d& a, const Vec3d& b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
+Vec3d upper_of(const Vec3d& a, const Vec3d& b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
 
 double squared_distance_to_box(const Vec3d& p, const Vec3d& lower, const Vec3d& upper) {
   double sum = 0.0;
@@ -105,7 +101,8 @@ std::optional<double> WallSurface::height(double x, double y) const {
   stack[depth++] = 0;
   while (depth > 0) {
     const Node& node = node_[stack[--depth]];
-    if (x < node.lower.x || x > node.upper.x || y < node.lower.y || y > node.upper.y || node.upper.z <= ground) continue;
+    if (x < node.lower.x || x > node.upper.x || y < node.lower.y || y > node.upper.y || node.upper.z <= ground)
+      continue;
     if (node.count == 0) {
       stack[depth++] = node.first;
       stack[depth++] = node.first + 1;

@@ -24,7 +24,9 @@ class WallSurface {
   std::optional<double> height(double x, double y) const;
 
  private:
-  struct Triangle { Vec3d a, b, c; };
+  struct Triangle {
+    Vec3d a, b, c;
+  };
   struct Node {
     Vec3d lower, upper;
     std::uint32_t first = 0, count = 0;  // leaf: triangles; inner: count 0, children at first and first + 1

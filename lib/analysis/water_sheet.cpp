@@ -58,7 +58,8 @@ bool is_shore(const RunInfo& info, float level, float ground) {
   if (!std::isfinite(level) || !std::isfinite(ground)) return false;
   const double depth = level - ground;
   if (depth <= 0.0 || !info.still_water_level) return depth <= 0.5 * info.dp;
-  return ground <= *info.still_water_level && level >= *info.still_water_level - 0.5 * info.dp && depth <= 1.2 * info.dp;
+  return ground <= *info.still_water_level && level >= *info.still_water_level - 0.5 * info.dp &&
+         depth <= 1.2 * info.dp;
 }
 
 // One ring of cells outwards: dry cells beside cells of `from` take the mean of those.
@@ -94,7 +95,8 @@ WaterSheet make_water_sheet(FrameView& view, double cell) {
   const std::vector<float> measured = level.value, ground = ground_at(view.info(), level);
   const int rings = static_cast<int>(std::ceil(margin * view.info().dp / cell));
   for (int ring = 0; ring < rings; ++ring) {
-    std::vector<std::uint8_t> from(ground.size());  // what lies under the ground leads no further: a dam has another side
+    std::vector<std::uint8_t> from(
+        ground.size());  // what lies under the ground leads no further: a dam has another side
     for (std::size_t k = 0; k < from.size(); ++k) from[k] = std::isfinite(measured[k]) || !(ground[k] > level.value[k]);
     extend(level, from, speed);
     extend(level, from, level.value);
@@ -104,7 +106,8 @@ WaterSheet make_water_sheet(FrameView& view, double cell) {
   for (std::size_t k = 0; k < number.size(); ++k) {
     if (!std::isfinite(measured[k]) && !is_shore(view.info(), level.value[k], ground[k])) continue;
     number[k] = static_cast<std::int32_t>(sheet.vertex.size());
-    sheet.vertex.push_back({level.x(static_cast<int>(k % level.nx)), level.y(static_cast<int>(k / level.nx)), level.value[k]});
+    sheet.vertex.push_back(
+        {level.x(static_cast<int>(k % level.nx)), level.y(static_cast<int>(k / level.nx)), level.value[k]});
     if (moving) sheet.speed.push_back(std::isfinite(speed[k]) ? speed[k] : 0.0f);
   }
   for (int iy = 0; iy + 1 < level.ny; ++iy) {

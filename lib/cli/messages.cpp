@@ -32,7 +32,8 @@ void say(const char* level, const std::string& message) {
     terminal::write_stderr(line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
     return;
   }
-  const std::string word = std::string(level) == "info" || std::string(level) == "detail" ? "" : level + std::string(": ");
+  const std::string word =
+      std::string(level) == "info" || std::string(level) == "detail" ? "" : level + std::string(": ");
   terminal::write_stderr(name_of_tool + ": " + word + message + "\n");
 }
 

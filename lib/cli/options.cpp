@@ -53,13 +53,11 @@ po::variables_map parse(const std::vector<std::string>& arguments, const po::opt
   } catch (const po::unknown_option& error) {
     const std::string name = error.get_option_name();
     const std::string near = gdesp::did_you_mean(name, long_names(options));
-    throw Error(ErrorKind::usage, "unknown option " + name +
-                                      (near.empty() ? "" : "; did you mean " + near + "?") + " (see --help)");
+    throw Error(ErrorKind::usage,
+                "unknown option " + name + (near.empty() ? "" : "; did you mean " + near + "?") + " (see --help)");
   } catch (const po::too_many_positional_options_error&) {
     throw Error(ErrorKind::usage, "too many arguments (see --help)");
-  } catch (const po::error& error) {
-    throw Error(ErrorKind::usage, std::string(error.what()) + " (see --help)");
-  }
+  } catch (const po::error& error) { throw Error(ErrorKind::usage, std::string(error.what()) + " (see --help)"); }
   return vm;
 }
 

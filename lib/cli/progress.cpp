@@ -59,9 +59,11 @@ struct Progress::State {
   }
 
   void say(double fraction, const std::string& note) {
-    if (!terminal::json_log()) return terminal::write_stderr(terminal::tool_name() + ": " + what + " " + text(fraction, note) + "\n");
-    const nlohmann::ordered_json line{{"level", "progress"}, {"tool", terminal::tool_name()}, {"what", what},
-                                      {"fraction", fraction}, {"note", note}, {"elapsed_s", elapsed()}};
+    if (!terminal::json_log())
+      return terminal::write_stderr(terminal::tool_name() + ": " + what + " " + text(fraction, note) + "\n");
+    const nlohmann::ordered_json line{{"level", "progress"}, {"tool", terminal::tool_name()},
+                                      {"what", what},        {"fraction", fraction},
+                                      {"note", note},        {"elapsed_s", elapsed()}};
     terminal::write_stderr(line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
   }
 };

@@ -33,7 +33,8 @@ bool read_line(std::istream& in, std::string& line, int line_number) {
 
 std::string excerpt(const std::string& line) {
   std::string text = line.substr(0, 40);
-  for (char& c : text) if (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7E) c = '?';
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7E) c = '?';
   return "\"" + text + (line.size() > 40 ? "...\"" : "\"");
 }
 
@@ -64,8 +65,8 @@ void finish_stdout() {
   const int why = errno;
   pollfd pipe{STDOUT_FILENO, POLLOUT, 0};
   if (why == EPIPE || (::poll(&pipe, 1, 0) == 1 && (pipe.revents & POLLERR) != 0)) throw ClosedPipe{};
-  throw Error(ErrorKind::resource,
-              "standard output cannot be written" + (why == 0 ? std::string() : std::string(": ") + std::strerror(why)));
+  throw Error(ErrorKind::resource, "standard output cannot be written" +
+                                       (why == 0 ? std::string() : std::string(": ") + std::strerror(why)));
 }
 
 }  // namespace terminal

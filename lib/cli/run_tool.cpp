@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From main() to exit code.
+#include <fcntl.h>
+#include <time.h>
+#include <unistd.h>
+
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <new>
-
-#include <fcntl.h>
-#include <time.h>
-#include <unistd.h>
 
 #include "cli/terminal.hpp"
 
@@ -23,8 +23,10 @@ timespec first_signal{};
 extern "C" void note_signal(int) {
   timespec now{};
   ::clock_gettime(CLOCK_MONOTONIC, &now);
-  if (signals_seen == 0) first_signal = now;
-  else if (now.tv_sec > first_signal.tv_sec + 1) ::_exit(130);
+  if (signals_seen == 0)
+    first_signal = now;
+  else if (now.tv_sec > first_signal.tv_sec + 1)
+    ::_exit(130);
   signals_seen = 1;
 }
 
@@ -46,28 +48,21 @@ int run_body(int argc, char** argv, const std::function<int(const std::vector<st
   } catch (const Error& failure) {
     error(failure.what());
     return failure.exit_code();
-  } catch (const std::bad_alloc&) {
-    error("out of memory");
-  } catch (const std::filesystem::filesystem_error& failure) {
+  } catch (const std::bad_alloc&) { error("out of memory"); } catch (const std::filesystem::filesystem_error& failure) {
     error(failure.what());
-  } catch (const std::exception& failure) {
-    error(std::string("unexpected: ") + failure.what());
-  }
+  } catch (const std::exception& failure) { error(std::string("unexpected: ") + failure.what()); }
   return static_cast<int>(ErrorKind::resource);
 }
 
 }  // namespace
 
-int run_tool(const char* name, int argc, char** argv,
-             const std::function<int(const std::vector<std::string>&)>& body) {
+int run_tool(const char* name, int argc, char** argv, const std::function<int(const std::vector<std::string>&)>& body) {
   occupy_standard_streams();
   terminal::set_tool_name(name);
   std::signal(SIGPIPE, SIG_IGN);
   try {
     return run_body(argc, argv, body);
-  } catch (const terminal::ClosedPipe&) {
-    return 0;
-  }
+  } catch (const terminal::ClosedPipe&) { return 0; }
 }
 
 void install_signal_handlers() {

@@ -36,7 +36,7 @@ GDESP_HD inline float reciprocal(float a) {
 /// 1/sqrt(a) for a of at least 1e-37; to one unit in the last place.
 GDESP_HD inline float inverse_sqrt(float a) {
 #if defined(__CUDA_ARCH__)
-  const float guess = ::rsqrtf(a);   // two units; a step of Newton's
+  const float guess = ::rsqrtf(a);  // two units; a step of Newton's
   return ::fmaf(::fmaf(-a * guess, guess, 1.0f), 0.5f * guess, guess);
 #else
   return 1.0f / ::sqrtf(a);

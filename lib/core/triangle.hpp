@@ -8,7 +8,8 @@ namespace gdesp {
 enum class TriangleFeature { face, edge, vertex };
 
 /// The point of triangle abc nearest to p (Ericson 2005, Real-Time Collision Detection, section 5.1.5, doi:10.1201/b14581), and what it lies on.
-inline Vec3d closest_point(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c, TriangleFeature* feature = nullptr) {
+inline Vec3d closest_point(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c,
+                           TriangleFeature* feature = nullptr) {
   const auto on = [feature](TriangleFeature what, const Vec3d& point) {
     if (feature) *feature = what;
     return point;

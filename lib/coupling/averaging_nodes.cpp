@@ -13,7 +13,7 @@ namespace {
 // Tiles that hold grains, and those around them.
 struct WantTiles {
   Domain domain;
-  const Index* grain_tile;   // per dense tile number: -1 without grains
+  const Index* grain_tile;  // per dense tile number: -1 without grains
   Index* wanted;
   GDESP_HD void operator()(Index t) const {
     const Vec3<std::int32_t> at = domain.tile_coordinates(t);
@@ -47,11 +47,13 @@ struct Cells {
   const Index* storage;
 
   GDESP_HD std::int64_t number(Index t, const Vec3<std::int32_t>& c) const {
-    return static_cast<std::int64_t>(storage[t]) * lattice.nodes_of_tile() + (c.z * lattice.count.y + c.y) * lattice.count.x + c.x;
+    return static_cast<std::int64_t>(storage[t]) * lattice.nodes_of_tile() +
+           (c.z * lattice.count.y + c.y) * lattice.count.x + c.x;
   }
   GDESP_HD std::int32_t along(std::int64_t p, int axis) const {
-    return static_cast<std::int32_t>((static_cast<std::uint64_t>(Domain::fraction_of(p)) *
-                                      static_cast<std::uint64_t>(lattice.count[axis])) >> Domain::fraction_bits);
+    return static_cast<std::int32_t>(
+        (static_cast<std::uint64_t>(Domain::fraction_of(p)) * static_cast<std::uint64_t>(lattice.count[axis])) >>
+        Domain::fraction_bits);
   }
 };
 
@@ -134,7 +136,7 @@ struct WriteNodes {
   const std::uint8_t* near_grains;
   const std::uint8_t* near_water;
   const Index* begin;
-  std::int64_t plane_y;      // of all nodes in the plane
+  std::int64_t plane_y;  // of all nodes in the plane
   FixedPosition* position;
   std::uint32_t* id;
 
@@ -180,12 +182,13 @@ struct PackNodes {
 
 template <class Exec>
 AveragingNodes<Exec>::AveragingNodes(const Exec& exec, const NodeLattice& lattice)
-    : exec_(exec), lattice_(lattice), set_(exec, lattice.domain, 2.0 * lattice.widest_spacing()),
-      wanted_(exec), storage_(exec), tile_(exec), row_count_(exec), row_begin_(exec), occupied_(exec), near_grains_(exec),
+    : exec_(exec), lattice_(lattice), set_(exec, lattice.domain, 2.0 * lattice.widest_spacing()), wanted_(exec),
+      storage_(exec), tile_(exec), row_count_(exec), row_begin_(exec), occupied_(exec), near_grains_(exec),
       near_water_(exec), position_(exec), id_(exec), record_(exec), room_(exec) {}
 
 template <class Exec>
-void AveragingNodes<Exec>::mark_near(const PlacesOfSet& places, Index cells, int reach, Array<std::uint8_t, Exec>& near) {
+void AveragingNodes<Exec>::mark_near(const PlacesOfSet& places, Index cells, int reach,
+                                     Array<std::uint8_t, Exec>& near) {
   occupied_.resize_discard(static_cast<std::size_t>(cells));
   near.resize_discard(static_cast<std::size_t>(cells));
   occupied_.fill_bytes(0);
@@ -193,11 +196,13 @@ void AveragingNodes<Exec>::mark_near(const PlacesOfSet& places, Index cells, int
   const Cells numbering{lattice_, wanted_.data(), storage_.data()};
   exec::parallel_for(exec_, "nodes::occupied", places.slots,
                      MarkOccupied{numbering, places.position, places.id, occupied_.data()});
-  exec::parallel_for(exec_, "nodes::near", cells, MarkNear{numbering, tile_.data(), occupied_.data(), reach, near.data()});
+  exec::parallel_for(exec_, "nodes::near", cells,
+                     MarkNear{numbering, tile_.data(), occupied_.data(), reach, near.data()});
 }
 
 template <class Exec>
-void AveragingNodes<Exec>::build(const CellGridView& grain_grid, const PlacesOfSet& grains, const PlacesOfSet& water, double skin) {
+void AveragingNodes<Exec>::build(const CellGridView& grain_grid, const PlacesOfSet& grains, const PlacesOfSet& water,
+                                 double skin) {
   const Domain& domain = lattice_.domain;
   const Index tiles = domain.tiles.x * domain.tiles.y * domain.tiles.z;
   wanted_.resize_discard(static_cast<std::size_t>(tiles));
@@ -222,8 +227,14 @@ void AveragingNodes<Exec>::build(const CellGridView& grain_grid, const PlacesOfS
   position_.resize_discard(static_cast<std::size_t>(nodes));
   id_.resize_discard(static_cast<std::size_t>(nodes));
   exec::parallel_for(exec_, "nodes::write", rows,
-                     WriteNodes{{lattice_, wanted_.data(), storage_.data()}, tile_.data(), near_grains_.data(), near_water_.data(),
-                                row_begin_.data(), domain.fixed({}).y, position_.data(), id_.data()});
+                     WriteNodes{{lattice_, wanted_.data(), storage_.data()},
+                                tile_.data(),
+                                near_grains_.data(),
+                                near_water_.data(),
+                                row_begin_.data(),
+                                domain.fixed({}).y,
+                                position_.data(),
+                                id_.data()});
   set_.build(position_, id_, nodes, room_);
   record_.resize_discard(static_cast<std::size_t>(clusters()) * record_size);
   exec::parallel_for(exec_, "nodes::pack", set_.slots(),

@@ -21,13 +21,13 @@ struct PlacesOfSet {
 /// The lattice: every tile of the domain holds the same whole number of nodes along each axis.
 struct NodeLattice {
   Domain domain;
-  Vec3<std::int32_t> count;   ///< nodes a tile, along each axis; 1 along y in the plane
+  Vec3<std::int32_t> count;  ///< nodes a tile, along each axis; 1 along y in the plane
 
   NodeLattice() = default;
   /// `spacing`: m, wanted; the nearest that divides a tile is taken.
   NodeLattice(const Domain& domain, double spacing);
   AveragingSpline spline() const;
-  double spacing(int axis) const { return domain.tile_size[axis] / count[axis]; }   ///< m, between nodes
+  double spacing(int axis) const { return domain.tile_size[axis] / count[axis]; }  ///< m, between nodes
   /// m, along the axes that the scene has.
   double widest_spacing() const;
   double narrowest_spacing() const;
@@ -74,11 +74,13 @@ class AveragingNodes {
 
   const ClusterSet<Exec>& set() const { return set_; }
   Index clusters() const { return set_.clusters(); }
-  const float* records() const { return record_.data(); }   ///< places; padding beyond reach
+  const float* records() const { return record_.data(); }  ///< places; padding beyond reach
 
   /// The members that a checkpoint keeps (exec/state_archive.hpp).
   template <class Archive>
-  void archive(Archive& a) { a(set_, record_); }
+  void archive(Archive& a) {
+    a(set_, record_);
+  }
 
  private:
   void mark_near(const PlacesOfSet& places, Index cells, int reach, Array<std::uint8_t, Exec>& near);

@@ -25,7 +25,9 @@ namespace gdesp::coupling {
 inline constexpr float spline_reach = 2.25f;
 
 /// m, between nodes, for the spread of a Wendland kernel of smoothing length `h_c` (m).
-inline double node_spacing(double h_c, int dimensions) { return h_c * std::sqrt(dimensions == 2 ? 5.0 / 12.0 : 2.0 / 5.0); }
+inline double node_spacing(double h_c, int dimensions) {
+  return h_c * std::sqrt(dimensions == 2 ? 5.0 / 12.0 : 2.0 / 5.0);
+}
 
 /// B(s).
 template <class Real>
@@ -47,12 +49,14 @@ GDESP_HD inline Real cubic_spline_slope(const Real& s) {
 
 /// S_n of one lattice.
 struct AveragingSpline {
-  Vec3f inverse_spacing;   ///< 1/m
-  float inverse_volume;    ///< 1/V_n: 1/m3, in the plane 1/m2
-  bool plane;              ///< y has no part in it
+  Vec3f inverse_spacing;  ///< 1/m
+  float inverse_volume;   ///< 1/V_n: 1/m3, in the plane 1/m2
+  bool plane;             ///< y has no part in it
 
   template <class Real>
-  struct Gradient { Real x, y, z; };   // 1/m
+  struct Gradient {
+    Real x, y, z;
+  };  // 1/m
 
   /// S of a place at (x, y, z) from the node, m.
   template <class Real>
@@ -73,7 +77,8 @@ struct AveragingSpline {
   GDESP_HD Real weight(const Real& x, const Real& y, const Real& z, Gradient<Real>& gradient) const {
     using real::select;
     const Real zero(0.0f), one(1.0f);
-    const Real sx = x * Real(inverse_spacing.x), sy = plane ? zero : y * Real(inverse_spacing.y), sz = z * Real(inverse_spacing.z);
+    const Real sx = x * Real(inverse_spacing.x), sy = plane ? zero : y * Real(inverse_spacing.y),
+               sz = z * Real(inverse_spacing.z);
     const Real within = select(sx * sx + sy * sy + sz * sz < Real(spline_reach * spline_reach), one, zero);
     const Real wx = cubic_spline(sx) * within, wy = plane ? one : cubic_spline(sy), wz = cubic_spline(sz);
     const Real xy = wx * wy, zx = wz * wx;

@@ -47,16 +47,17 @@ GDESP_HD inline float deposited_volume(float volume, float N) {
 
 /// Sums around a grain.
 struct Surroundings {
-  float water;             ///< N
-  float pressure;          ///< sum_a u_a p_ia W_ia, Pa
-  Vec3f water_gradient;    ///< sum_a u_a grad_i W_ia, 1/m
-  Vec3f pressure_gradient; ///< sum_a u_a p_ia grad_i W_ia, Pa/m
+  float water;              ///< N
+  float pressure;           ///< sum_a u_a p_ia W_ia, Pa
+  Vec3f water_gradient;     ///< sum_a u_a grad_i W_ia, 1/m
+  Vec3f pressure_gradient;  ///< sum_a u_a p_ia grad_i W_ia, Pa/m
 };
 
 struct Buoyancy {
-  Vec3f force;          ///< N, on the grain
-  Vec3f gradient;       ///< Pa/m, of the pressure at the grain
-  float slope, offset;  ///< the grain's force on a is u_a [(slope p_ia + offset) grad_i W_ia + slope rho g W_ia]: m3, N m
+  Vec3f force;     ///< N, on the grain
+  Vec3f gradient;  ///< Pa/m, of the pressure at the grain
+  float slope,
+      offset;  ///< the grain's force on a is u_a [(slope p_ia + offset) grad_i W_ia + slope rho g W_ia]: m3, N m
 };
 
 /// `rho_g`: rho g, N/m3.

@@ -12,21 +12,23 @@ namespace gdesp::coupling {
 // Rows of the nodes' sums (four floats each).
 constexpr Index node_rows = 64;
 enum NodeRow {
-  node_water = 0,         // sum_a u_a S/V
-  node_porosity = 4,      // sum_a u_a eps_a S/V
-  node_pressure = 8,      // sum_a u_a (P_a - rho g.(r_a - r_n)) S/V
-  node_velocity = 12,     // sum_a u_a v_a S/V
-  node_wall = 24,         // sum_w V_w S/V
-  node_solid = 28,        // sum_i V_i (w/N) S/V
-  node_slope = 32,        // sum_i slope_i S/V
-  node_offset = 36,       // sum_i (slope_i rho g.(r_n - r_i) - offset_i) S/V
-  node_pull = 40,         // sum_i (offset_i + slope_i rho g.(r_i - r_n)) grad S/V + (slope_i rho g - force_i) S/V
+  node_water = 0,      // sum_a u_a S/V
+  node_porosity = 4,   // sum_a u_a eps_a S/V
+  node_pressure = 8,   // sum_a u_a (P_a - rho g.(r_a - r_n)) S/V
+  node_velocity = 12,  // sum_a u_a v_a S/V
+  node_wall = 24,      // sum_w V_w S/V
+  node_solid = 28,     // sum_i V_i (w/N) S/V
+  node_slope = 32,     // sum_i slope_i S/V
+  node_offset = 36,    // sum_i (slope_i rho g.(r_n - r_i) - offset_i) S/V
+  node_pull = 40,      // sum_i (offset_i + slope_i rho g.(r_i - r_n)) grad S/V + (slope_i rho g - force_i) S/V
   node_slope_gradient = 52
 };
 
 // Four places of a cluster, and those of one of the other kind against them.
 template <class Real>
-struct Place { Real x, y, z; };
+struct Place {
+  Real x, y, z;
+};
 template <class Lanes>
 GDESP_HD inline Place<typename Lanes::Real> place_i(const Lanes& lanes, const float* r) {
   return {lanes.load_i(r + row_x), lanes.load_i(r + row_y), lanes.load_i(r + row_z)};
@@ -54,23 +56,24 @@ struct NodePairs {
   template <class Lanes, class Visit>
   GDESP_HD void for_each(Index c, const Lanes& lanes, const Visit& visit) const {
     const auto i = place_i(lanes, of_i + record_offset(c));
-    for_each_cluster(list, c, [&](Index j, const Vec3f& shift) {
-      visit(j, separation(lanes, i, of_j + record_offset(j), shift));
-    });
+    for_each_cluster(
+        list, c, [&](Index j, const Vec3f& shift) { visit(j, separation(lanes, i, of_j + record_offset(j), shift)); });
   }
 };
 
 // Where the four of something stand in rows by cluster.
 template <class Float>
-GDESP_HD inline Float* rows_of(Float* first, Index rows, Index c) { return first + static_cast<std::int64_t>(rows) * c; }
+GDESP_HD inline Float* rows_of(Float* first, Index rows, Index c) {
+  return first + static_cast<std::int64_t>(rows) * c;
+}
 
 // One quantity of j, a row of `source`, into a row of the nodes; `factor` comes to 1/V.
 struct AddAtNodes {
   NodePairs pairs;
-  const float* source;   // null: 1
+  const float* source;  // null: 1
   Index source_rows;
   float factor;
-  float* row;            // of node_rows
+  float* row;  // of node_rows
   template <class Lanes>
   GDESP_HD void operator()(Index c, const Lanes& lanes) const {
     using Real = typename Lanes::Real;
@@ -98,7 +101,8 @@ struct ReadAtPlaces {
     pairs.for_each(c, lanes, [&](Index j, const Place<Real>& r) {
       sum += pairs.spline.weight(r.x, r.y, r.z) * lanes.load_j(rows_of(row, node_rows, j));
     });
-    lanes.store_sum_i(rows_of(result, result_rows, c), factor ? sum * lanes.load_i(rows_of(factor, factor_rows, c)) : sum);
+    lanes.store_sum_i(rows_of(result, result_rows, c),
+                      factor ? sum * lanes.load_i(rows_of(factor, factor_rows, c)) : sum);
   }
 };
 
@@ -120,7 +124,7 @@ struct WaterAtNodes {
       const Real uS = lanes.load_j(wj) * pairs.spline.weight(r.x, r.y, r.z);
       N += uS;
       eps += uS * lanes.load_j(porosity + 4 * static_cast<std::int64_t>(j));
-      pressure += uS * (lanes.load_j(wj + 4) + dot(rho_g, r));   // r: from the water to the node
+      pressure += uS * (lanes.load_j(wj + 4) + dot(rho_g, r));  // r: from the water to the node
       for (int k = 0; k < 3; ++k) velocity[k] += uS * lanes.load_j(rj + 16 + 4 * k);
     });
     float* out = rows_of(nodes, node_rows, c);
@@ -184,7 +188,7 @@ struct MixtureAtNodes {
       const float* rj = pairs.of_j + record_offset(j);
       const Real S = pairs.spline.weight(r.x, r.y, r.z), of_grain = lanes.load_j(rj + row_volume);
       slope += S * of_grain;
-      offset += S * (of_grain * dot(rho_g, r) - lanes.load_j(rj + row_offset));   // r: from the grain to the node
+      offset += S * (of_grain * dot(rho_g, r) - lanes.load_j(rj + row_offset));  // r: from the grain to the node
     });
     float* out = rows_of(nodes, node_rows, c);
     lanes.store_sum_i(out + node_slope, slope * inverse_volume);
@@ -210,7 +214,8 @@ struct MixturePressure {
     bool any = false;
     pairs.for_each(c, lanes, [&](Index j, const Place<Real>& r) {
       const float* n = rows_of(nodes, node_rows, j);
-      of_grains += pairs.spline.weight(r.x, r.y, r.z) * (lanes.load_j(n + node_offset) + lanes.load_j(n + node_slope) * dot(rho_g, r));
+      of_grains += pairs.spline.weight(r.x, r.y, r.z) *
+                   (lanes.load_j(n + node_offset) + lanes.load_j(n + node_slope) * dot(rho_g, r));
       any = true;
     });
     if (!any) return;
@@ -270,14 +275,15 @@ struct ReactionOnFluid {
     const float* w = rows_of(water, water_rows, c);
     const Real P = lanes.load_i(w + 4);
     Real f[3] = {Real(0.0f), Real(0.0f), Real(0.0f)};
-    pairs.for_each(c, lanes, [&](Index j, const Place<Real>& r) {   // r: from the node to the water
+    pairs.for_each(c, lanes, [&](Index j, const Place<Real>& r) {  // r: from the node to the water
       const float* n = rows_of(nodes, node_rows, j);
       const Real S = pairs.spline.weight(r.x, r.y, r.z), p = P - dot(rho_g, r);
       for (int k = 0; k < 3; ++k) {
         f[k] += S * (lanes.load_j(n + node_pull + 4 * k) + p * lanes.load_j(n + node_slope_gradient + 4 * k));
       }
     });
-    const Real scale = Real(inverse_mass) * lanes.load_i(w) / lanes.load_i(mass_share + 4 * static_cast<std::int64_t>(c));
+    const Real scale =
+        Real(inverse_mass) * lanes.load_i(w) / lanes.load_i(mass_share + 4 * static_cast<std::int64_t>(c));
     for (int k = 0; k < 3; ++k) lanes.store_sum_i(rows_of(reaction, 12, c) + 4 * k, f[k] * scale);
   }
 };

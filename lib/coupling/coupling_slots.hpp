@@ -16,8 +16,14 @@ enum GrainRow { row_x = 0, row_y = 4, row_z = 8, row_volume = 12, row_force = 16
 constexpr Index water_rows = 12, water_boost = 8;
 // Rows of the sums at grains.
 constexpr Index sum_rows = 48;
-enum SumRow { sum_water = 0, sum_porosity = 4, sum_velocity = 8, sum_pressure = 20, sum_water_gradient = 24,
-              sum_pressure_gradient = 36 };
+enum SumRow {
+  sum_water = 0,
+  sum_porosity = 4,
+  sum_velocity = 8,
+  sum_pressure = 20,
+  sum_water_gradient = 24,
+  sum_pressure_gradient = 36
+};
 
 GDESP_HD inline float grain_volume(float R, bool discs) {
   return discs ? 3.14159265f * R * R : 4.18879020f * R * R * R;
@@ -66,7 +72,8 @@ struct PackWater {
     const bool real_particle = id[s] != no_particle;
     const float ratio = 1.0f + density[s], eps = porosity[s];
     r[0] = real_particle ? V0 * mass_share[s] / sph::cavitated_density(ratio, eps, cavitates) * r[8] : 0.0f;
-    r[4] = real_particle ? stiffness * sph::cavitated_pressure(sph::tait_pressure(ratio / eps - 1.0f), cavitates) : 0.0f;
+    r[4] =
+        real_particle ? stiffness * sph::cavitated_pressure(sph::tait_pressure(ratio / eps - 1.0f), cavitates) : 0.0f;
   }
 };
 
@@ -97,8 +104,8 @@ struct SolidToPorosity {
   float* porosity;
   bool starting;
   GDESP_HD void operator()(Index s) const {
-    const float found = real::max(1.0f - solid[12 * static_cast<std::int64_t>(s / exec::cluster_size) + s % exec::cluster_size],
-                                  least_porosity);
+    const float found = real::max(
+        1.0f - solid[12 * static_cast<std::int64_t>(s / exec::cluster_size) + s % exec::cluster_size], least_porosity);
     // Opened water takes its room from the porosity before: half of the way, so that the two settle.
     const bool opened = starting || 1.0f + density[s] < 0.98f * porosity[s];
     porosity[s] = opened ? 0.5f * (found + porosity[s]) : found;
@@ -140,8 +147,9 @@ struct ForcesOnGrains {
     const float eps = real::min(real::max(q[sum_porosity] * inverse, porosity_floor), 1.0f);
     const Vec3f u = vector_at(q + sum_velocity) * inverse;
     const float R = grain[s].radius, V = grain_volume(R, discs);
-    const Buoyancy push = buoyancy(V, {N, q[sum_pressure], vector_at(q + sum_water_gradient),
-                                       vector_at(q + sum_pressure_gradient)}, gravity * density);
+    const Buoyancy push =
+        buoyancy(V, {N, q[sum_pressure], vector_at(q + sum_water_gradient), vector_at(q + sum_pressure_gradient)},
+                 gravity * density);
     const float given = real_diameter ? real_diameter[group[s]] : 0.0f;
     const Vec3f v{grain[s].vx, grain[s].vy, grain[s].vz};
     const DragState state{eps, norm(u - v), given > 0.0f ? given : 2.0f * R, density, viscosity};
@@ -177,11 +185,12 @@ struct PackReaction {
   GDESP_HD void operator()(Index s) const {
     const std::int64_t c = s / exec::cluster_size, lane = s % exec::cluster_size;
     float* r = record + record_offset(static_cast<Index>(c)) + lane;
-    if (id[s] == no_particle || r[row_volume] <= 0.0f) return;   // dry
+    if (id[s] == no_particle || r[row_volume] <= 0.0f) return;  // dry
     const float N = sums[sum_rows * c + lane + sum_water];
     const Vec3f change = velocity[s] - velocity_before[s];
     const Vec3f F = fluid_acceleration[s] * (added_mass[s] * kick_share) +
-                    static_cast<Vec3f>(drag_impulse[s] * static_cast<double>(inverse_dt)) - change * (added_mass[s] * inverse_dt);
+                    static_cast<Vec3f>(drag_impulse[s] * static_cast<double>(inverse_dt)) -
+                    change * (added_mass[s] * inverse_dt);
     r[row_force] = F.x / N;
     r[row_force + 4] = F.y / N;
     r[row_force + 8] = F.z / N;

@@ -25,11 +25,11 @@ namespace gdesp::coupling {
 
 /// What surrounds a grain.
 struct DragState {
-  float porosity;     ///< eps, 0..1
-  float slip;         ///< m/s, |u - v|
-  float diameter;     ///< m, of the real grain
-  float density;      ///< kg/m3, fluid
-  float viscosity;    ///< Pa s, dynamic
+  float porosity;   ///< eps, 0..1
+  float slip;       ///< m/s, |u - v|
+  float diameter;   ///< m, of the real grain
+  float density;    ///< kg/m3, fluid
+  float viscosity;  ///< Pa s, dynamic
 };
 
 /// K of the Ergun / Wen-Yu pair, kg/(s m3).
@@ -40,10 +40,9 @@ GDESP_HD inline float ergun_wen_yu_drag(const DragState& s) {
   }
   const float reynolds = s.density * d * s.porosity * s.slip / s.viscosity;
   // C_d |u - v|, finite at rest.
-  const float cd_slip = reynolds <= 1000.0f
-                            ? 24.0f * s.viscosity / (s.density * d * s.porosity) *
-                                  (1.0f + 0.15f * ::powf(reynolds, 0.687f))
-                            : 0.44f * s.slip;
+  const float cd_slip = reynolds <= 1000.0f ? 24.0f * s.viscosity / (s.density * d * s.porosity) *
+                                                  (1.0f + 0.15f * ::powf(reynolds, 0.687f))
+                                            : 0.44f * s.slip;
   return 0.75f * cd_slip * s.porosity * s.density * ::powf(s.porosity, -2.65f) / d;
 }
 

@@ -6,9 +6,9 @@
 namespace gdesp::coupling {
 template <class Exec>
 GrainFluidCoupling<Exec>::GrainFluidCoupling(const Exec& exec, const Domain& domain, const CouplingLaw& law)
-    : exec_(exec), domain_(domain), law_(law),
-      lattice_(domain, node_spacing(law.smoothing_length, law.dimensions)), nodes_(exec, lattice_), node_grain_(exec),
-      node_fluid_(exec), node_wall_(exec), grain_node_(exec), fluid_node_(exec), node_sums_(exec), real_diameter_(exec), record_(exec), sums_(exec), water_(exec), 
+    : exec_(exec), domain_(domain), law_(law), lattice_(domain, node_spacing(law.smoothing_length, law.dimensions)),
+      nodes_(exec, lattice_), node_grain_(exec), node_fluid_(exec), node_wall_(exec), grain_node_(exec),
+      fluid_node_(exec), node_sums_(exec), real_diameter_(exec), record_(exec), sums_(exec), water_(exec),
       velocity_before_(exec), porosity_(exec), drag_coefficient_(exec), fluid_mass_(exec), added_mass_(exec),
       fluid_velocity_(exec), fluid_acceleration_(exec), other_force_(exec), reaction_(exec) {
   real_diameter_.assign(law.real_diameter);
@@ -28,7 +28,8 @@ void GrainFluidCoupling<Exec>::rebuild(const dem::GrainSystem<Exec>& grains, con
   record_.resize_discard(n * 8);
   sums_.resize_discard(n * 12);
   for (auto* array : {&porosity_, &drag_coefficient_, &fluid_mass_, &added_mass_}) array->resize_discard(n);
-  for (auto* array : {&velocity_before_, &fluid_velocity_, &fluid_acceleration_, &other_force_}) array->resize_discard(n);
+  for (auto* array : {&velocity_before_, &fluid_velocity_, &fluid_acceleration_, &other_force_})
+    array->resize_discard(n);
   reaction_.resize_discard(water_clusters * 12);
   water_.resize_discard(water_clusters * water_rows);
   place(grains, 0.0);
@@ -56,10 +57,10 @@ void GrainFluidCoupling<Exec>::place(const dem::GrainSystem<Exec>& grains, doubl
 template <class Exec>
 void GrainFluidCoupling<Exec>::pack_water(const sph::FluidSystem<Exec>& fluid) {
   const double c = fluid.parameters().sound_speed;
-  exec::parallel_for(exec_, "coupling::pack_water", fluid.slots(),
-                     PackWater{fluid.ids(), fluid.densities(), fluid.porosity(), fluid.mass_share(),
-                               fluid.parameters().cavitates, lattice_volume(),
-                               static_cast<float>(law_.fluid_density * c * c), water_.data()});
+  exec::parallel_for(
+      exec_, "coupling::pack_water", fluid.slots(),
+      PackWater{fluid.ids(), fluid.densities(), fluid.porosity(), fluid.mass_share(), fluid.parameters().cavitates,
+                lattice_volume(), static_cast<float>(law_.fluid_density * c * c), water_.data()});
 }
 
 template <class Exec>
@@ -88,24 +89,23 @@ void GrainFluidCoupling<Exec>::find_porosity(sph::FluidSystem<Exec>& fluid, Star
   const Index nodes = nodes_.clusters(), water_clusters = fluid.set().clusters();
   float* sums = node_sums_.data();
   exec::pair_pass(exec_, "coupling::room", nodes,
-                  AddAtNodes{walls_at_nodes(fluid), nullptr, 0,
-                             lattice_volume(), sums + node_wall});
-  exec::pair_pass(exec_, "coupling::room", water_clusters,
-                  ReadAtPlaces{nodes_at_water(fluid), sums + node_wall, nullptr, 0, water_.data() + water_boost, water_rows});
+                  AddAtNodes{walls_at_nodes(fluid), nullptr, 0, lattice_volume(), sums + node_wall});
+  exec::pair_pass(
+      exec_, "coupling::room", water_clusters,
+      ReadAtPlaces{nodes_at_water(fluid), sums + node_wall, nullptr, 0, water_.data() + water_boost, water_rows});
   exec::parallel_for(exec_, "coupling::room_finish", fluid.slots(), RoomToBoost{water_.data()});
   pack_water(fluid);
   exec::pair_pass(exec_, "coupling::wet", nodes,
-                  AddAtNodes{water_at_nodes(fluid), water_.data(), water_rows,
-                             1.0f, sums + node_water});
+                  AddAtNodes{water_at_nodes(fluid), water_.data(), water_rows, 1.0f, sums + node_water});
   exec::pair_pass(exec_, "coupling::wet", grain_slots_ / exec::cluster_size,
-                  ReadAtPlaces{nodes_at_grains(), sums + node_water, nullptr, 0,
-                               sums_.data() + sum_water, sum_rows});
-  exec::parallel_for(exec_, "coupling::deposit", grain_slots_, Deposit{sums_.data(), record_.data(), start == Start::guess});
+                  ReadAtPlaces{nodes_at_grains(), sums + node_water, nullptr, 0, sums_.data() + sum_water, sum_rows});
+  exec::parallel_for(exec_, "coupling::deposit", grain_slots_,
+                     Deposit{sums_.data(), record_.data(), start == Start::guess});
   exec::pair_pass(exec_, "coupling::porosity", nodes,
-                  AddAtNodes{grains_at_nodes(), record_.data() + row_volume,
-                             record_size, 1.0f, sums + node_solid});
+                  AddAtNodes{grains_at_nodes(), record_.data() + row_volume, record_size, 1.0f, sums + node_solid});
   exec::pair_pass(exec_, "coupling::porosity", water_clusters,
-                  ReadAtPlaces{nodes_at_water(fluid), sums + node_solid, water_.data() + water_boost, water_rows, reaction_.data(), 12});
+                  ReadAtPlaces{nodes_at_water(fluid), sums + node_solid, water_.data() + water_boost, water_rows,
+                               reaction_.data(), 12});
   exec::parallel_for(exec_, "coupling::porosity_finish", fluid.slots(),
                      SolidToPorosity{reaction_.data(), fluid.densities(), fluid.porosity(), start == Start::settle});
 }
@@ -133,25 +133,24 @@ void GrainFluidCoupling<Exec>::gather_forces(dem::GrainSystem<Exec>& grains, sph
   const Index nodes = nodes_.clusters();
   float* sums = node_sums_.data();
   exec::pair_pass(exec_, "coupling::water_at_nodes", nodes,
-                  WaterAtNodes{water_at_nodes(fluid), rho_g, water_.data(),
-                               fluid.porosity(), sums});
+                  WaterAtNodes{water_at_nodes(fluid), rho_g, water_.data(), fluid.porosity(), sums});
   exec::pair_pass(exec_, "coupling::gather", grains.set().clusters(),
                   GatherAtGrains{nodes_at_grains(), rho_g, sums, sums_.data()});
-  exec::parallel_for(exec_, "coupling::forces", grains.slots(),
-                     ForcesOnGrains{grains.records(), grains.ids(), grains.groups(), record_.data(), sums_.data(),
-                                    real_diameter_.empty() ? nullptr : real_diameter_.data(), law_.drag,
-                                    law_.dimensions == 2, static_cast<float>(law_.fluid_density),
-                                    static_cast<float>(law_.dynamic_viscosity), static_cast<float>(law_.added_mass),
-                                    static_cast<Vec3f>(law_.gravity), porosity_.data(), drag_coefficient_.data(),
-                                    fluid_mass_.data(), added_mass_.data(), fluid_velocity_.data(),
-                                    fluid_acceleration_.data(), other_force_.data()});
+  exec::parallel_for(
+      exec_, "coupling::forces", grains.slots(),
+      ForcesOnGrains{grains.records(), grains.ids(), grains.groups(), record_.data(), sums_.data(),
+                     real_diameter_.empty() ? nullptr : real_diameter_.data(), law_.drag, law_.dimensions == 2,
+                     static_cast<float>(law_.fluid_density), static_cast<float>(law_.dynamic_viscosity),
+                     static_cast<float>(law_.added_mass), static_cast<Vec3f>(law_.gravity), porosity_.data(),
+                     drag_coefficient_.data(), fluid_mass_.data(), added_mass_.data(), fluid_velocity_.data(),
+                     fluid_acceleration_.data(), other_force_.data()});
   const double c = fluid.parameters().sound_speed;
-  exec::pair_pass(exec_, "coupling::mixture", nodes,
-                  MixtureAtNodes{grains_at_nodes(), rho_g, sums});
-  exec::pair_pass(exec_, "coupling::mixture", fluid.set().clusters(),
-                  MixturePressure{nodes_at_water(fluid), rho_g,
-                                  static_cast<float>(1.0 / (law_.fluid_density * c * c)), sums, water_.data(), fluid.porosity(),
-                                  fluid.parameters().paper_form ? fluid.densities() : nullptr, fluid.mixture_records()});
+  exec::pair_pass(exec_, "coupling::mixture", nodes, MixtureAtNodes{grains_at_nodes(), rho_g, sums});
+  exec::pair_pass(
+      exec_, "coupling::mixture", fluid.set().clusters(),
+      MixturePressure{nodes_at_water(fluid), rho_g, static_cast<float>(1.0 / (law_.fluid_density * c * c)), sums,
+                      water_.data(), fluid.porosity(), fluid.parameters().paper_form ? fluid.densities() : nullptr,
+                      fluid.mixture_records()});
   grains.set_fluid({drag_coefficient_.data(), fluid_mass_.data(), added_mass_.data(), other_force_.data(),
                     fluid_acceleration_.data(), fluid_velocity_.data()});
   grains.clear_drag_impulse();
@@ -160,16 +159,16 @@ void GrainFluidCoupling<Exec>::gather_forces(dem::GrainSystem<Exec>& grains, sph
 template <class Exec>
 void GrainFluidCoupling<Exec>::react(const dem::GrainSystem<Exec>& grains, sph::FluidSystem<Exec>& fluid, float dt) {
   exec::parallel_for(exec_, "coupling::pack_reaction", grains.slots(),
-                     PackReaction{grains.ids(), grains.velocities(), velocity_before_.data(), fluid_acceleration_.data(),
-                                  added_mass_.data(), grains.drag_impulse(), sums_.data(), 1.0f / dt,
-                                  static_cast<float>(grains.kicked()) / dt, record_.data()});
+                     PackReaction{grains.ids(), grains.velocities(), velocity_before_.data(),
+                                  fluid_acceleration_.data(), added_mass_.data(), grains.drag_impulse(), sums_.data(),
+                                  1.0f / dt, static_cast<float>(grains.kicked()) / dt, record_.data()});
   const Vec3f rho_g = static_cast<Vec3f>(law_.gravity * law_.fluid_density);
   exec::pair_pass(exec_, "coupling::reaction", nodes_.clusters(),
                   ReactionAtNodes{grains_at_nodes(), rho_g, node_sums_.data()});
-  exec::pair_pass(exec_, "coupling::reaction", fluid.set().clusters(),
-                  ReactionOnFluid{nodes_at_water(fluid), rho_g,
-                                  static_cast<float>(1.0 / law_.fluid_density) / lattice_volume(), node_sums_.data(),
-                                  water_.data(), fluid.mass_share(), reaction_.data()});
+  exec::pair_pass(
+      exec_, "coupling::reaction", fluid.set().clusters(),
+      ReactionOnFluid{nodes_at_water(fluid), rho_g, static_cast<float>(1.0 / law_.fluid_density) / lattice_volume(),
+                      node_sums_.data(), water_.data(), fluid.mass_share(), reaction_.data()});
   exec::parallel_for(exec_, "coupling::unpack", fluid.slots(),
                      UnpackReaction{reaction_.data(), fluid.external_acceleration()});
 }

@@ -26,17 +26,17 @@ namespace gdesp::coupling {
 
 struct CouplingLaw {
   Drag drag = Drag::di_felice;
-  double smoothing_length = 0.0;       ///< m, h_c
-  double added_mass = 0.5;             ///< C_m
-  double fluid_density = 1000.0;       ///< kg/m3
-  double dynamic_viscosity = 1.0e-3;   ///< Pa s
+  double smoothing_length = 0.0;      ///< m, h_c
+  double added_mass = 0.5;            ///< C_m
+  double fluid_density = 1000.0;      ///< kg/m3
+  double dynamic_viscosity = 1.0e-3;  ///< Pa s
   Vec3d gravity;
   double dp = 0.0;
   int dimensions = 3;
-  std::vector<float> real_diameter;    ///< m per grain group; 0: its own
+  std::vector<float> real_diameter;  ///< m per grain group; 0: its own
 };
 
-struct NodePairs;   // coupling_passes.hpp
+struct NodePairs;  // coupling_passes.hpp
 
 /// Lowest porosity the laws are given (random loose packings lie near 0.4; closer is outside Ergun's data).
 inline constexpr float porosity_floor = 0.3f;
@@ -73,15 +73,15 @@ class GrainFluidCoupling {
   /// The members that a checkpoint keeps (exec/state_archive.hpp).
   template <class Archive>
   void archive(Archive& a) {
-    a(nodes_, node_grain_, node_fluid_, node_wall_, grain_node_, fluid_node_, node_sums_, grain_slots_, record_, sums_, water_,
-      velocity_before_, porosity_, drag_coefficient_, fluid_mass_, added_mass_, fluid_velocity_, fluid_acceleration_, other_force_,
-      reaction_);
+    a(nodes_, node_grain_, node_fluid_, node_wall_, grain_node_, fluid_node_, node_sums_, grain_slots_, record_, sums_,
+      water_, velocity_before_, porosity_, drag_coefficient_, fluid_mass_, added_mass_, fluid_velocity_,
+      fluid_acceleration_, other_force_, reaction_);
   }
 
  private:
   enum class Start { none, guess, settle };
   void find_porosity(sph::FluidSystem<Exec>& fluid, Start start);
-  float lattice_volume() const;                              ///< m3, or m2 in two dimensions
+  float lattice_volume() const;  ///< m3, or m2 in two dimensions
   void pack_water(const sph::FluidSystem<Exec>& fluid);
   // Pairs of the passes: what nodes add up, and who reads them.
   NodePairs grains_at_nodes() const;
@@ -97,15 +97,15 @@ class GrainFluidCoupling {
   AveragingNodes<Exec> nodes_;
   ClusterList<Exec> node_grain_, node_fluid_, node_wall_, grain_node_, fluid_node_;
   Index grain_slots_ = 0;
-  Array<float, Exec> node_sums_;         ///< rows of coupling_passes.hpp, per cluster of nodes
+  Array<float, Exec> node_sums_;  ///< rows of coupling_passes.hpp, per cluster of nodes
   Array<float, Exec> real_diameter_;
-  Array<float, Exec> record_;            ///< x y z V w/N | D/N (3) and offset (coupling.buoyancy), 4 each, per cluster
-  Array<float, Exec> sums_;              ///< 12 rows of 4 per cluster, as gathered
-  Array<float, Exec> water_;             ///< u (m3), pressure (Pa), 1/(1 - S_wall) of the water, 4 each, per cluster
-  Array<Vec3f, Exec> velocity_before_;   ///< m/s, when placed
+  Array<float, Exec> record_;           ///< x y z V w/N | D/N (3) and offset (coupling.buoyancy), 4 each, per cluster
+  Array<float, Exec> sums_;             ///< 12 rows of 4 per cluster, as gathered
+  Array<float, Exec> water_;            ///< u (m3), pressure (Pa), 1/(1 - S_wall) of the water, 4 each, per cluster
+  Array<Vec3f, Exec> velocity_before_;  ///< m/s, when placed
   Array<float, Exec> porosity_, drag_coefficient_, fluid_mass_, added_mass_;
   Array<Vec3f, Exec> fluid_velocity_, fluid_acceleration_, other_force_;
-  Array<float, Exec> reaction_;          ///< 3 rows of 4 per fluid cluster
+  Array<float, Exec> reaction_;  ///< 3 rows of 4 per fluid cluster
 };
 
 }  // namespace gdesp::coupling

@@ -10,17 +10,17 @@ namespace gdesp::dem {
 /// centre + R (X - centre_initial). Between begin and end the centre moves evenly and the body turns evenly about a
 /// fixed axis; what grains feel as its velocity is that of this path.
 struct BodyMotionState {
-  Vec3d centre_initial;                                          ///< m
-  Vec3d centre_begin, centre_end;                                ///< m
-  double rotation_begin[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};        ///< R at the begin, row by row
-  double rotation_end[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};          ///< R at the end
-  bool present = true;                                           ///< false: removed
+  Vec3d centre_initial;                                    ///< m
+  Vec3d centre_begin, centre_end;                          ///< m
+  double rotation_begin[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< R at the begin, row by row
+  double rotation_end[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};    ///< R at the end
+  bool present = true;                                     ///< false: removed
 };
 
 /// What grains gave to a body, summed over sub-steps.
 struct BodyImpulse {
-  Vec3d linear;     ///< N s
-  Vec3d angular;    ///< N m s, about the centre as it moved
+  Vec3d linear;   ///< N s
+  Vec3d angular;  ///< N m s, about the centre as it moved
 };
 
 }  // namespace gdesp::dem

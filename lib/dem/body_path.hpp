@@ -8,9 +8,9 @@ namespace gdesp::dem {
 
 /// A body at one moment of its interval.
 struct BodyMoment {
-  Vec3d centre;                                        ///< m
-  double rotation[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};    ///< R, row by row
-  Vec3d velocity, spin;                                ///< m/s, rad/s
+  Vec3d centre;                                      ///< m
+  double rotation[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< R, row by row
+  Vec3d velocity, spin;                              ///< m/s, rad/s
 };
 
 /// At `share` (0 begin, 1 end) of an interval of `duration` (s).

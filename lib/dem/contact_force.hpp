@@ -22,9 +22,9 @@ namespace gdesp::dem {
 template <class Law>
 struct ContactLaws {
   Law law;
-  float friction = 0.0f;            ///< mu
-  float rolling_friction = 0.0f;    ///< mu_r
-  float work_of_adhesion = 0.0f;    ///< J/m2
+  float friction = 0.0f;          ///< mu
+  float rolling_friction = 0.0f;  ///< mu_r
+  float work_of_adhesion = 0.0f;  ///< J/m2
 };
 
 /// Shares of dem.damping.limit; the rolling one is in rolling_resistance.hpp.
@@ -37,11 +37,11 @@ struct HalfSteps {
 
 template <class R>
 struct ContactGeometry {
-  Vec3<R> n;        ///< unit, from j to i
-  R overlap;        ///< m, > 0
-  R radius;         ///< R*, m
-  R mass;           ///< m*, kg
-  Vec3<R> velocity; ///< m/s, of i against j at the contact
+  Vec3<R> n;         ///< unit, from j to i
+  R overlap;         ///< m, > 0
+  R radius;          ///< R*, m
+  R mass;            ///< m*, kg
+  Vec3<R> velocity;  ///< m/s, of i against j at the contact
 };
 
 template <class R>

@@ -12,11 +12,11 @@ namespace gdesp::dem {
 /// Sign convention: r_ij = r_i - r_j, n = r_ij / |r_ij| points at i; overlap = radius_i + radius_j - |r_ij| > 0.
 template <class R>
 struct ContactCoefficients {
-  R elastic_force;          ///< N, along +n on i
-  R normal_stiffness;       ///< N/m, d(elastic_force)/d(overlap)
-  R normal_damping;         ///< N s/m, times -(v_ij . n)
-  R tangential_stiffness;   ///< N/m
-  R tangential_damping;     ///< N s/m
+  R elastic_force;         ///< N, along +n on i
+  R normal_stiffness;      ///< N/m, d(elastic_force)/d(overlap)
+  R normal_damping;        ///< N s/m, times -(v_ij . n)
+  R tangential_stiffness;  ///< N/m
+  R tangential_damping;    ///< N s/m
 };
 
 /// a b / (a + b): effective radius, effective mass.

@@ -25,12 +25,15 @@ ContactLaws<Law> laws(const Law& law, double friction, const ContactParameters& 
 
 void check_contact_parameters(const ContactParameters& p) {
   require(p.youngs_modulus > 0.0 && std::isfinite(p.youngs_modulus), "youngs_modulus", p.youngs_modulus, "Pa", "> 0");
-  require(p.poisson_ratio >= 0.0 && p.poisson_ratio < 0.5, "poisson_ratio", p.poisson_ratio, "", "0 to 0.5, 0.5 excluded");
-  require(p.wall_youngs_modulus >= 0.0, "wall_youngs_modulus", p.wall_youngs_modulus, "Pa", "0 (as the grains) or more");
+  require(p.poisson_ratio >= 0.0 && p.poisson_ratio < 0.5, "poisson_ratio", p.poisson_ratio, "",
+          "0 to 0.5, 0.5 excluded");
+  require(p.wall_youngs_modulus >= 0.0, "wall_youngs_modulus", p.wall_youngs_modulus, "Pa",
+          "0 (as the grains) or more");
   require(p.wall_poisson_ratio >= 0.0 && p.wall_poisson_ratio < 0.5, "wall_poisson_ratio", p.wall_poisson_ratio, "",
           "0 to 0.5, 0.5 excluded");
   require(p.stiffness > 0.0 && std::isfinite(p.stiffness), "stiffness", p.stiffness, "N/m", "> 0");
-  require(p.stiffness_ratio > 0.0 && p.stiffness_ratio <= 1.0, "stiffness_ratio", p.stiffness_ratio, "", "above 0, to 1");
+  require(p.stiffness_ratio > 0.0 && p.stiffness_ratio <= 1.0, "stiffness_ratio", p.stiffness_ratio, "",
+          "above 0, to 1");
   require(p.restitution > 0.0 && p.restitution <= 1.0, "restitution", p.restitution, "", "above 0, to 1");
   require(p.wall_restitution != 0.0 && p.wall_restitution <= 1.0, "wall_restitution", p.wall_restitution, "",
           "above 0, to 1; negative: as restitution");

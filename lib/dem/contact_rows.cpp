@@ -6,7 +6,7 @@
 namespace gdesp::dem {
 namespace {
 
-constexpr int search_floats = 16;   // x y z radius, four each, of a cluster
+constexpr int search_floats = 16;  // x y z radius, four each, of a cluster
 
 // Places relative to the origin of the cluster's tile, for the search.
 struct PackSearch {
@@ -32,17 +32,15 @@ struct PackSearch {
 // still: then it is the other.
 struct alignas(16) KeptContact {
   Index neighbour;
-  float fx, fy, fz;   // N
+  float fx, fy, fz;  // N
 };
 
 struct OldRows {
   const RowRange* range;
   const ContactRow* rows;
-  const RollingRow* rolling;   // null without rolling resistance
+  const RollingRow* rolling;  // null without rolling resistance
 
-  GDESP_HD bool keeps(Index i, Index j) const {
-    return range[i].held == range[j].held ? i < j : range[j].held != 0;
-  }
+  GDESP_HD bool keeps(Index i, Index j) const { return range[i].held == range[j].held ? i < j : range[j].held != 0; }
   // visit(row, lane, number) for the contacts that grain i keeps.
   template <class Visit>
   GDESP_HD void for_each_history(Index i, const Visit& visit) const {
@@ -52,7 +50,8 @@ struct OldRows {
       const Index r = k == 0 ? i : of.overflow + k - 1;
       for (int l = 0; l < 8; ++l) {
         bool remembers = rows[r].fx[l] != 0.0f || rows[r].fy[l] != 0.0f || rows[r].fz[l] != 0.0f;
-        if (rolling) remembers = remembers || rolling[r].mx[l] != 0.0f || rolling[r].my[l] != 0.0f || rolling[r].mz[l] != 0.0f;
+        if (rolling)
+          remembers = remembers || rolling[r].mx[l] != 0.0f || rolling[r].my[l] != 0.0f || rolling[r].mz[l] != 0.0f;
         if (remembers && keeps(i, rows[r].neighbour[l])) visit(r, l, number++);
       }
     }
@@ -76,7 +75,8 @@ struct KeepHistory {
     old.for_each_history(i, [&](Index r, int l, Index number) {
       const ContactRow& row = old.rows[r];
       kept[begin[i] + number] = {row.neighbour[l], row.fx[l], row.fy[l], row.fz[l]};
-      if (old.rolling) kept_rolling[begin[i] + number] = {old.rolling[r].mx[l], old.rolling[r].my[l], old.rolling[r].mz[l]};
+      if (old.rolling)
+        kept_rolling[begin[i] + number] = {old.rolling[r].mx[l], old.rolling[r].my[l], old.rolling[r].mz[l]};
     });
   }
 };
@@ -107,7 +107,7 @@ struct BuildRows {
   const Index* source;
   ListReach reach;
   Index slots;
-  const Index* kept_begin;    // by old slot; null: no contacts so far
+  const Index* kept_begin;  // by old slot; null: no contacts so far
   const KeptContact* kept;
   const Vec3f* kept_rolling;
   RowRange* range;
@@ -150,22 +150,26 @@ struct BuildRows {
     const float cutoff = radius + reach.largest_radius + reach.skin + reach.drift;
     for_each_candidate(grid, grid.cluster_tile[c], low, high, cutoff,
                        [&](Index first_cluster, Index last_cluster, const Vec3<std::int32_t>& o) {
-      const Real xs = x - Real(static_cast<float>(o.x) * tile.x), ys = y - Real(static_cast<float>(o.y) * tile.y);
-      const Real zs = z - Real(static_cast<float>(o.z) * tile.z);
-      for (Index j = first_cluster; j <= last_cluster; ++j) {
-        const float* other = search + search_floats * static_cast<std::int64_t>(j);
-        const Real dx = xs - lanes.load_j(other), dy = ys - lanes.load_j(other + 4), dz = zs - lanes.load_j(other + 8);
-        const Real r2 = dx * dx + dy * dy + dz * dz;
-        const Real sum = r + lanes.load_j(other + 12);
-        const Real limit = max(sum + Real(reach.skin), Real(0.0f)), touch = max(sum + Real(0.1f * reach.skin), Real(0.0f));
-        unsigned all = lanes.bits(r2 < limit * limit);
-        if (all == 0) continue;
-        if (j == c && o.x == 0 && o.y == 0 && o.z == 0) all &= ~0x8421u;
-        if (all != 0) {
-          visit(Found{j, static_cast<std::uint16_t>(all & lanes.bits(r2 < touch * touch)), static_cast<std::uint16_t>(all)});
-        }
-      }
-    });
+                         const Real xs = x - Real(static_cast<float>(o.x) * tile.x),
+                                    ys = y - Real(static_cast<float>(o.y) * tile.y);
+                         const Real zs = z - Real(static_cast<float>(o.z) * tile.z);
+                         for (Index j = first_cluster; j <= last_cluster; ++j) {
+                           const float* other = search + search_floats * static_cast<std::int64_t>(j);
+                           const Real dx = xs - lanes.load_j(other), dy = ys - lanes.load_j(other + 4),
+                                      dz = zs - lanes.load_j(other + 8);
+                           const Real r2 = dx * dx + dy * dy + dz * dz;
+                           const Real sum = r + lanes.load_j(other + 12);
+                           const Real limit = max(sum + Real(reach.skin), Real(0.0f)),
+                                      touch = max(sum + Real(0.1f * reach.skin), Real(0.0f));
+                           unsigned all = lanes.bits(r2 < limit * limit);
+                           if (all == 0) continue;
+                           if (j == c && o.x == 0 && o.y == 0 && o.z == 0) all &= ~0x8421u;
+                           if (all != 0) {
+                             visit(Found{j, static_cast<std::uint16_t>(all & lanes.bits(r2 < touch * touch)),
+                                         static_cast<std::uint16_t>(all)});
+                           }
+                         }
+                       });
   }
 
   GDESP_HD Index row_index(Index slot, Index overflow, Index k) const { return k == 0 ? slot : overflow + k - 1; }
@@ -293,7 +297,8 @@ struct BuildRows {
 
 template <class Exec>
 ContactRows<Exec>::ContactRows(const Exec& exec, bool rolling)
-    : exec_(exec), rolling_on_(rolling), range_(exec), rows_(exec), rolling_(exec), kept_begin_(exec), overflow_used_(exec) {
+    : exec_(exec), rolling_on_(rolling), range_(exec), rows_(exec), rolling_(exec), kept_begin_(exec),
+      overflow_used_(exec) {
   overflow_used_.resize_discard(1);
 }
 
@@ -312,8 +317,8 @@ void ContactRows<Exec>::build(const ClusterSet<Exec>& set, const Index* source, 
     kept_count = exec::exclusive_scan(exec_, "dem::contact_rows", count, kept_begin_.data(), old_slots);
   }
   // Places and radii by cluster, then the contacts that were.
-  float* search = exec::room_for<float>(room, 4 * static_cast<std::size_t>(slots) +
-                                                  (rolling_on_ ? 7 : 4) * static_cast<std::size_t>(kept_count));
+  float* search = exec::room_for<float>(
+      room, 4 * static_cast<std::size_t>(slots) + (rolling_on_ ? 7 : 4) * static_cast<std::size_t>(kept_count));
   KeptContact* kept = reinterpret_cast<KeptContact*>(search + 4 * static_cast<std::size_t>(slots));
   Vec3f* kept_rolling = reinterpret_cast<Vec3f*>(kept + kept_count);
   exec::parallel_for(exec_, "dem::contact_rows", old_slots, KeepHistory{old, kept_begin_.data(), kept, kept_rolling});
@@ -326,8 +331,8 @@ void ContactRows<Exec>::build(const ClusterSet<Exec>& set, const Index* source, 
     if (rolling_on_) rolling_.resize_discard(total);
     overflow_used_.fill_bytes(0);
     exec::pair_pass(exec_, "dem::contact_rows", set.clusters(),
-                    BuildRows{grid, search, records, source, reach, slots, first ? nullptr : kept_begin_.data(), kept, kept_rolling,
-                              range_.data(), rows_.data(), rolling_on_ ? rolling_.data() : nullptr,
+                    BuildRows{grid, search, records, source, reach, slots, first ? nullptr : kept_begin_.data(), kept,
+                              kept_rolling, range_.data(), rows_.data(), rolling_on_ ? rolling_.data() : nullptr,
                               overflow_used_.data(), overflow_capacity_});
     const Index used = static_cast<Index>(overflow_used_.read(0));
     if (used <= overflow_capacity_) break;

@@ -9,9 +9,9 @@ namespace gdesp::dem {
 
 /// What the force pass sees.
 struct ContactRowsView {
-  const RowRange* range;     ///< by slot
+  const RowRange* range;  ///< by slot
   ContactRow* rows;
-  RollingRow* rolling;       ///< null without rolling resistance
+  RollingRow* rolling;  ///< null without rolling resistance
 };
 
 /// How far to look, m. `drift`: no grain has moved farther since the set was sorted.
@@ -28,8 +28,8 @@ class ContactRows {
   /// Lists anew for records (slots + 1 of them, the last a dummy) and positions by slot, and takes over the history of
   /// contacts that go on. `source` says where each slot was when the old rows were made (null: where it is now);
   /// first: there were none. What is in `room` is lost.
-  void build(const ClusterSet<Exec>& set, const Index* source, const GrainRecord* records, const FixedPosition* position,
-             const ListReach& reach, bool first, Array<GrainRecord, Exec>& room);
+  void build(const ClusterSet<Exec>& set, const Index* source, const GrainRecord* records,
+             const FixedPosition* position, const ListReach& reach, bool first, Array<GrainRecord, Exec>& room);
 
   ContactRowsView view() { return {range_.data(), rows_.data(), rolling_on_ ? rolling_.data() : nullptr}; }
   Index row_count() const { return static_cast<Index>(rows_.size()); }
@@ -47,7 +47,7 @@ class ContactRows {
   Array<RowRange, Exec> range_;
   Array<ContactRow, Exec> rows_;
   Array<RollingRow, Exec> rolling_;
-  Array<Index, Exec> kept_begin_;   ///< by old slot: first of its contacts kept in the room while lists are made
+  Array<Index, Exec> kept_begin_;  ///< by old slot: first of its contacts kept in the room while lists are made
   Array<std::uint32_t, Exec> overflow_used_;
   Index overflow_capacity_ = 0;
 };

@@ -30,12 +30,12 @@ GDESP_HD inline R dmt_pull(float work_of_adhesion, const R& radius) {
 /// How the contact moved, and how long.
 template <class R>
 struct ContactMotion {
-  Vec3<R> n;         ///< unit, from j to i
-  Vec3<R> v_t;       ///< m/s, tangential velocity of i against j at the contact
-  R unloading;       ///< q
-  R cap;             ///< mu F_n, N
-  R half_before;     ///< s, half of the step that ends now
-  R half_after;      ///< s, half of the step that begins now
+  Vec3<R> n;      ///< unit, from j to i
+  Vec3<R> v_t;    ///< m/s, tangential velocity of i against j at the contact
+  R unloading;    ///< q
+  R cap;          ///< mu F_n, N
+  R half_before;  ///< s, half of the step that ends now
+  R half_after;   ///< s, half of the step that begins now
 };
 
 /// The tangential force on i, N; `history` (N) goes from half a step before to half a step after now.

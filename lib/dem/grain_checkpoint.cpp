@@ -38,10 +38,14 @@ class Writer {
     bytes.insert(bytes.end(), p, p + values.size() * sizeof(T));
   }
   template <class T, class Exec>
-  void put(const Array<T, Exec>& array) { put(array.to_host()); }
+  void put(const Array<T, Exec>& array) {
+    put(array.to_host());
+  }
   /// What archive() of a class hands over.
   template <class... Parts>
-  void operator()(const Parts&... parts) { (put(parts), ...); }
+  void operator()(const Parts&... parts) {
+    (put(parts), ...);
+  }
   std::vector<char> bytes;
 };
 
@@ -63,7 +67,9 @@ class Reader {
     return values;
   }
   template <class... Parts>
-  void operator()(Parts&... parts) { (fill(parts), ...); }
+  void operator()(Parts&... parts) {
+    (fill(parts), ...);
+  }
   bool done() const { return at_ == bytes_.size(); }
   [[noreturn]] static void fail() {
     throw Error(ErrorKind::input, "checkpoint: the state of the grains is cut short or not of this version");
@@ -71,9 +77,13 @@ class Reader {
 
  private:
   template <class T>
-  void fill(T& value) { value = get<T>(); }
+  void fill(T& value) {
+    value = get<T>();
+  }
   template <class T, class Exec>
-  void fill(Array<T, Exec>& array) { array.assign(get_vector<T>()); }
+  void fill(Array<T, Exec>& array) {
+    array.assign(get_vector<T>());
+  }
   void take(void* to, std::size_t size) {
     if (size > bytes_.size() - at_) fail();
     if (size > 0) std::memcpy(to, bytes_.data() + at_, size);

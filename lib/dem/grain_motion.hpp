@@ -24,8 +24,8 @@ namespace gdesp::dem {
 
 /// What drag acts between.
 struct DraggedPair {
-  float drag;                             ///< b, kg/s
-  float inverse_grain, inverse_water;     ///< 1/M, 1/m_f; 1/kg
+  float drag;                          ///< b, kg/s
+  float inverse_grain, inverse_water;  ///< 1/M, 1/m_f; 1/kg
 };
 
 /// J, N s, of one component or of all. `slip` = w + k (a_u - F/M), m/s: what it would be without drag; `kick` = k, s.

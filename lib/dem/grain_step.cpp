@@ -12,14 +12,14 @@ template <class Law, bool Rolling>
 struct GrainStep {
   ContactLaws<Law> laws;
   GrainStepView v;
-  Float4 gravity, unit, inverse_unit;   // of v, side by side
+  Float4 gravity, unit, inverse_unit;  // of v, side by side
   // 0 where a disc of a plane scene cannot go: rounding in the normals of walls would make a loaded heap buckle.
   Float4 moves, turns;
 
   template <class R>
   struct Sums {
-    Vec3<R> force{}, torque{};   // N; N m / radius
-    R overlap{0.0f};             // overlap / sum of radii
+    Vec3<R> force{}, torque{};  // N; N m / radius
+    R overlap{0.0f};            // overlap / sum of radii
   };
 
   // What rolling resistance needs of a row besides the contacts: which lanes touch, and the neighbours' records.
@@ -28,7 +28,7 @@ struct GrainStep {
     const Mask& touching;
     const R& radius;
     const R& mass;
-    const R* surface;   // three: radius times angular velocity
+    const R* surface;  // three: radius times angular velocity
   };
 
   // Eight contacts. q: gathered quarters of the neighbours' records.
@@ -96,8 +96,8 @@ struct GrainStep {
 
   // Rolling torques over the grain's radius, N.
   template <class R, class Mask, class Lanes>
-  GDESP_HD Vec3<R> rolling(const GrainRecord& own, RollingRow& row, const ContactGeometry<R>& g, const ContactForce<R>& c,
-                           const Neighbours<R, Mask>& other, const Lanes& lanes) const {
+  GDESP_HD Vec3<R> rolling(const GrainRecord& own, RollingRow& row, const ContactGeometry<R>& g,
+                           const ContactForce<R>& c, const Neighbours<R, Mask>& other, const Lanes& lanes) const {
     using real::select;
     const R zero(0.0f), radius_i(own.radius), about_contact(1.0f + v.inertia_factor);
     const R inertia_i = about_contact * R(own.mass) * R(own.radius) * R(own.radius);
@@ -148,8 +148,8 @@ struct GrainStep {
     const Float4 velocity = free + (1.0f / mass) * dragged(i, free, 1.0f / mass, kick, writes);
     if (writes) {
       const auto change = static_cast<Vec3d>(exec::first3(velocity)) - static_cast<Vec3d>(exec::first3(old));
-      v.fluid.drag_impulse[i] += static_cast<double>(mass) * change -
-                                 static_cast<double>(kick) * static_cast<Vec3d>(exec::first3(force));
+      v.fluid.drag_impulse[i] +=
+          static_cast<double>(mass) * change - static_cast<double>(kick) * static_cast<Vec3d>(exec::first3(force));
     }
     return velocity;
   }
@@ -165,8 +165,8 @@ struct GrainStep {
   }
 
   // The four quarters of a record change side by side; what is last in each (radius, mass, mobility, wall) stays.
-  GDESP_HD exec::Largest finish(Index i, const GrainRecord& own, const Float4& force, const Float4& torque, float overlap,
-                                bool writes) const {
+  GDESP_HD exec::Largest finish(Index i, const GrainRecord& own, const Float4& force, const Float4& torque,
+                                float overlap, bool writes) const {
     // A grain released now starts from rest at time n: its first kick has no half before.
     const float kick = (own.mobility < 1.0f ? 0.0f : v.half.before) + v.half.after, drift = 2.0f * v.half.after;
     const Float4 velocity_old = exec::load3(v.velocity[i]), spin_old = exec::load3(v.spin[i]);
@@ -238,13 +238,16 @@ struct GrainStep {
 template <class Exec, class Law>
 void run_grain_step(const Exec& exec, const ContactLaws<Law>& laws, const GrainStepView& view, Index slots,
                     const exec::Gate& gate, exec::Largest* measure) {
-  const Float4 gravity = exec::load3(view.gravity), unit = exec::load3(view.unit.metres), inverse = exec::load3(view.unit.inverse);
+  const Float4 gravity = exec::load3(view.gravity), unit = exec::load3(view.unit.metres),
+               inverse = exec::load3(view.unit.inverse);
   const float across = view.plane ? 0.0f : 1.0f;
   const Float4 moves{1.0f, across, 1.0f, 0.0f}, turns{across, 1.0f, across, 0.0f};
   if (view.contacts.rolling) {
-    exec::row_pass(exec, "dem::step", slots, GrainStep<Law, true>{laws, view, gravity, unit, inverse, moves, turns}, gate, measure);
+    exec::row_pass(exec, "dem::step", slots, GrainStep<Law, true>{laws, view, gravity, unit, inverse, moves, turns},
+                   gate, measure);
   } else {
-    exec::row_pass(exec, "dem::step", slots, GrainStep<Law, false>{laws, view, gravity, unit, inverse, moves, turns}, gate, measure);
+    exec::row_pass(exec, "dem::step", slots, GrainStep<Law, false>{laws, view, gravity, unit, inverse, moves, turns},
+                   gate, measure);
   }
 }
 

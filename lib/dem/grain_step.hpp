@@ -12,17 +12,17 @@ namespace gdesp::dem {
 struct GrainStepView {
   ContactRowsView contacts;
   PositionUnit unit;
-  const GrainRecord* now;              ///< slots + 1 records
+  const GrainRecord* now;  ///< slots + 1 records
   GrainRecord* next;
-  const Vec3<std::int32_t>* start;     ///< fraction bits at the last rebuild
-  Vec3f* velocity;                     ///< m/s, at half steps
-  Vec3f* spin;                         ///< rad/s, at half steps
-  const WallForce* walls;              ///< by GrainRecord::wall
+  const Vec3<std::int32_t>* start;  ///< fraction bits at the last rebuild
+  Vec3f* velocity;                  ///< m/s, at half steps
+  Vec3f* spin;                      ///< rad/s, at half steps
+  const WallForce* walls;           ///< by GrainRecord::wall
   FluidOnGrains fluid;
-  Vec3f gravity;                       ///< m/s2
-  float inertia_factor = 0.4f;         ///< I / (m R^2)
-  bool plane = false;                  ///< two dimensions: discs move along x and z and turn about y only
-  HalfSteps half;                      ///< s
+  Vec3f gravity;                ///< m/s2
+  float inertia_factor = 0.4f;  ///< I / (m R^2)
+  bool plane = false;           ///< two dimensions: discs move along x and z and turn about y only
+  HalfSteps half;               ///< s
 };
 
 /// What a sub-step tells: value[0] largest squared displacement since the rebuild (m2), [1] largest squared speed

@@ -81,8 +81,15 @@ struct GrainTerms {
 template <class Exec>
 template <class Law>
 GrainSums GrainSystem<Exec>::sums_with(const ContactLaws<Law>& pair) {
-  const GrainTerms<Law> terms{pair,           domain_,         position_unit(domain_), contacts_.view(), now_.data(),
-                              position_.data(), velocity_.data(), walls_.history().data(), gravity_,
+  const GrainTerms<Law> terms{pair,
+                              domain_,
+                              position_unit(domain_),
+                              contacts_.view(),
+                              now_.data(),
+                              position_.data(),
+                              velocity_.data(),
+                              walls_.history().data(),
+                              gravity_,
                               inertia_factor(domain_.dimensions)};
   return exec::reduce(exec_, "dem::sums", slots_, GrainSums{}, terms, AddSums{});
 }

@@ -15,7 +15,7 @@
 namespace gdesp::dem {
 namespace {
 
-constexpr int largest_batch = 32;   // sub-steps given before their measures are looked at
+constexpr int largest_batch = 32;  // sub-steps given before their measures are looked at
 
 GDESP_HD inline GrainRecord padding_record() {
   GrainRecord record{};
@@ -72,7 +72,7 @@ struct WrapGrains {
 
 struct Release {
   const std::int32_t* group;
-  const std::int32_t* held;   // by group; groups beyond are free
+  const std::int32_t* held;  // by group; groups beyond are free
   Index groups;
   GrainRecord* now;
   GDESP_HD void operator()(Index i) const {
@@ -99,10 +99,9 @@ void shrink_discard(const Exec&, Array<T, Exec>& array, Index size) {
 template <class Exec>
 GrainSystem<Exec>::GrainSystem(const Exec& exec, const Domain& domain, const GrainTable& grains,
                                const ContactParameters& contact, const TriangleTable& walls, const Vec3d& gravity)
-    : exec_(exec), domain_(domain), laws_(make_contact_laws(contact, domain.dimensions)), contact_(contact), gravity_(gravity),
-      contacts_(exec, contact.rolling_friction > 0.0), position_(exec), id_(exec), group_(exec), now_(exec),
-      next_(exec), velocity_(exec), spin_(exec), start_(exec), quiet_until_(exec),
-      drag_impulse_(exec),
+    : exec_(exec), domain_(domain), laws_(make_contact_laws(contact, domain.dimensions)), contact_(contact),
+      gravity_(gravity), contacts_(exec, contact.rolling_friction > 0.0), position_(exec), id_(exec), group_(exec),
+      now_(exec), next_(exec), velocity_(exec), spin_(exec), start_(exec), quiet_until_(exec), drag_impulse_(exec),
       measure_(exec), batch_(exec), held_(exec) {
   const GrainStart state = make_grain_start(domain, grains);
   largest_radius_ = state.largest_radius;
@@ -114,9 +113,9 @@ GrainSystem<Exec>::GrainSystem(const Exec& exec, const Domain& domain, const Gra
   const double reach = 2.0 * largest_radius_ + std::max(skin_, largest_skin * mean_diameter_);
   check_reach(domain, reach);
   set_ = ClusterSet<Exec>(exec, domain, std::max(2.0 * state.mean_radius + skin_, 1.0e-3 * domain.tile_size.x));
-  walls_ = WallContacts<Exec>(exec, domain,
-                              make_wall_mesh(walls, 1.0e-5 * smallest_radius_, domain.dimensions, 8.0 * reach),
-                              std::max(state.mass, 1.0e-30) * std::ldexp(1.0, -50));
+  walls_ =
+      WallContacts<Exec>(exec, domain, make_wall_mesh(walls, 1.0e-5 * smallest_radius_, domain.dimensions, 8.0 * reach),
+                         std::max(state.mass, 1.0e-30) * std::ldexp(1.0, -50));
   slots_ = static_cast<Index>(state.record.size());
   position_.assign(state.position);
   id_.assign(state.id);
@@ -254,9 +253,7 @@ void GrainSystem<Exec>::rebuild(const std::vector<BodyMoment>& moments, bool sor
   contacts_.build(set_, sorted_anew ? set_.source() : nullptr, now_.data(), position_.data(),
                   {static_cast<float>(largest_radius_), static_cast<float>(skin_), static_cast<float>(drift_)},
                   !listed_, next_);
-  if (!walls_.empty()) {
-    walls_.build(set_, position_, now_.data(), listed_poses_, wall_reach(), !listed_, next_);
-  }
+  if (!walls_.empty()) { walls_.build(set_, position_, now_.data(), listed_poses_, wall_reach(), !listed_, next_); }
   shrink_discard(exec_, next_, slots_ + 1);
   exec::parallel_for(exec_, "dem::sort", slots_ + 1, CopyRecords{now_.data(), next_.data()});
   listed_ = true;
@@ -307,12 +304,20 @@ void GrainSystem<Exec>::run(const ContactLaws<Law>& pair, const ContactLaws<Law>
   exec::Largest* measure = measure_.data() + 2 * in_batch;
   exec::Gate gate;
   if (in_batch > 0) gate = {measure - 1, largest_move2()};
-  if (walls_.grains() > 0) {
-    walls_.step(wall, {now_.data(), start_.data(), half, inertia}, in_batch, gate, measure);
-  }
-  GrainStepView view{contacts_.view(), position_unit(domain_), now_.data(), next_.data(), start_.data(),
-                     velocity_.data(), spin_.data(), walls_.forces(), fluid_, static_cast<Vec3f>(gravity_), inertia,
-                     domain_.dimensions == 2, half};
+  if (walls_.grains() > 0) { walls_.step(wall, {now_.data(), start_.data(), half, inertia}, in_batch, gate, measure); }
+  GrainStepView view{contacts_.view(),
+                     position_unit(domain_),
+                     now_.data(),
+                     next_.data(),
+                     start_.data(),
+                     velocity_.data(),
+                     spin_.data(),
+                     walls_.forces(),
+                     fluid_,
+                     static_cast<Vec3f>(gravity_),
+                     inertia,
+                     domain_.dimensions == 2,
+                     half};
   run_grain_step(exec_, pair, view, slots_, gate, measure + 1);
   now_.swap(next_);
 }
@@ -340,15 +345,16 @@ int GrainSystem<Exec>::take_measures(int given, double h) {
   int taken = 0;
   while (taken < given) {
     const exec::Largest& grains = measure[static_cast<std::size_t>(2 * taken + 1)];
-    if (walls_.grains() > 0) overlap_ = std::max(overlap_, measure[static_cast<std::size_t>(2 * taken)].value[measure_overlap]);
+    if (walls_.grains() > 0)
+      overlap_ = std::max(overlap_, measure[static_cast<std::size_t>(2 * taken)].value[measure_overlap]);
     moved2_ = grains.value[measure_displacement2];
     speed2_ = grains.value[measure_speed2];
     overlap_ = std::max(overlap_, grains.value[measure_overlap]);
     if (grains.value[measure_broken] > 0.0f) {
-      throw Error(ErrorKind::numerical, "grains: a speed of more than 1e6 m/s, or not a number, at t = " +
-                                            std::to_string(time_) + " s, sub-step " + std::to_string(substeps_ + taken) +
-                                            " of " + std::to_string(h) +
-                                            " s; a smaller grain time step or softer initial packing is needed");
+      throw Error(ErrorKind::numerical,
+                  "grains: a speed of more than 1e6 m/s, or not a number, at t = " + std::to_string(time_) +
+                      " s, sub-step " + std::to_string(substeps_ + taken) + " of " + std::to_string(h) +
+                      " s; a smaller grain time step or softer initial packing is needed");
     }
     ++taken;
     if (moved2_ > largest_move2()) break;

@@ -19,15 +19,15 @@ namespace gdesp::dem {
 /// Sums over the grains, in double precision, and extremes. Velocities are those of time n.
 struct GrainSums {
   Index particles = 0;
-  double mass = 0.0;                ///< kg
-  Vec3d momentum;                   ///< kg m/s, of the half-step velocities (conserved to round-off)
-  double kinetic_energy = 0.0;      ///< J, with rotation
-  double potential_energy = 0.0;    ///< J, m g . (lower corner of the domain - r)
-  double elastic_energy = 0.0;      ///< J, in grain-grain contacts, normal and tangential
-  Index contacts = 0;               ///< touching pairs of grains
+  double mass = 0.0;              ///< kg
+  Vec3d momentum;                 ///< kg m/s, of the half-step velocities (conserved to round-off)
+  double kinetic_energy = 0.0;    ///< J, with rotation
+  double potential_energy = 0.0;  ///< J, m g . (lower corner of the domain - r)
+  double elastic_energy = 0.0;    ///< J, in grain-grain contacts, normal and tangential
+  Index contacts = 0;             ///< touching pairs of grains
   Index wall_contacts = 0;
-  float largest_speed = 0.0f;       ///< m/s
-  float largest_overlap = 0.0f;     ///< overlap / diameter, over all sub-steps since the last call
+  float largest_speed = 0.0f;    ///< m/s
+  float largest_overlap = 0.0f;  ///< overlap / diameter, over all sub-steps since the last call
 };
 
 template <class Exec>
@@ -47,21 +47,21 @@ class GrainSystem {
   void set_bodies(const std::vector<BodyMotionState>& bodies);
   /// Advances by dt (s) in equal sub-steps. Throws Error(numerical) when a grain's speed leaves any sensible range.
   void advance(double dt, int substeps);
-  double time() const { return time_; }                     ///< s
+  double time() const { return time_; }  ///< s
   void set_time(double time) { time_ = time; }
 
   // State by slot, valid until the next advance().
   const ClusterSet<Exec>& set() const { return set_; }
   Index slots() const { return set_.slots(); }
   Index particles() const { return set_.particles(); }
-  Index lost() const { return lost_; }                      ///< grains that left the domain, so far
+  Index lost() const { return lost_; }  ///< grains that left the domain, so far
   const FixedPosition* positions() const { return position_.data(); }
   const GrainRecord* records() const { return now_.data(); }
   const std::uint32_t* ids() const { return id_.data(); }
   const std::int32_t* groups() const { return group_.data(); }
-  double largest_radius() const { return largest_radius_; }   ///< m
+  double largest_radius() const { return largest_radius_; }  ///< m
 
-  const Vec3f* velocities() const { return velocity_.data(); }   ///< m/s, at the half step behind now
+  const Vec3f* velocities() const { return velocity_.data(); }  ///< m/s, at the half step behind now
 
   /// Sorts now: the order of slots changes, and set() finds grains where they are. advance() sorts only while no fluid
   /// is set, so slots stay what they are over a coupled step; call this before the lists of the coupling are made.
@@ -69,13 +69,13 @@ class GrainSystem {
   /// True when some grain may have left its cell in set() by more than a hundredth of a diameter: sort before lists
   /// are made from set().
   bool sorting_is_due() const;
-  double largest_speed() const { return std::sqrt(static_cast<double>(speed2_)); }   ///< m/s, at the last sub-step
-  long sorts() const { return sorts_; }                     ///< changes with the order of slots
+  double largest_speed() const { return std::sqrt(static_cast<double>(speed2_)); }  ///< m/s, at the last sub-step
+  long sorts() const { return sorts_; }                                             ///< changes with the order of slots
 
   // Coupling. The arrays are the caller's, by slot, all of them or none (dry grains), and must live until the next
   // set_fluid() or sort_grains() (which forgets them); drag_impulse is the system's own.
   void set_fluid(const FluidOnGrains& fluid);
-  const Vec3d* drag_impulse() const { return drag_impulse_.data(); }   ///< N s, given by the fluid since the last clear
+  const Vec3d* drag_impulse() const { return drag_impulse_.data(); }  ///< N s, given by the fluid since the last clear
   void clear_drag_impulse();
   /// s: time for which the last advance() applied constant forces (half steps lag behind: not exactly its dt).
   double kicked() const { return kicked_; }
@@ -85,8 +85,8 @@ class GrainSystem {
   GrainSums sums();
   /// To the host, in the order of ids.
   GrainTable table() const;
-  double skin() const { return skin_; }                     ///< m, of the lists in use
-  long rebuilds() const { return rebuilds_; }               ///< of the contact lists
+  double skin() const { return skin_; }        ///< m, of the lists in use
+  long rebuilds() const { return rebuilds_; }  ///< of the contact lists
   long substeps() const { return substeps_; }
   Index near_walls() const { return walls_.grains(); }
 
@@ -105,7 +105,7 @@ class GrainSystem {
   void apply_release();
   double moved_since_sorting() const;
   bool stale(const std::vector<BodyMoment>& moments) const;
-  float largest_move2() const { return static_cast<float>(0.25 * skin_ * skin_); }   ///< m2, half the skin's square
+  float largest_move2() const { return static_cast<float>(0.25 * skin_ * skin_); }  ///< m2, half the skin's square
   // Bodies; number 0 are the walls at rest.
   void choose_skin(double moved);
   double largest_body_move(const std::vector<BodyMoment>& moments) const;
@@ -132,8 +132,8 @@ class GrainSystem {
   double critical_time_ = 0.0, skin_ = 0.0;
   double time_ = 0.0, half_before_ = 0.0, kicked_ = 0.0;
   float moved2_ = 0.0f, speed2_ = 0.0f, overlap_ = 0.0f;
-  double drift_ = 0.0;                            // m: no grain moved farther since it was sorted
-  double odometer_ = 0.0;                         // m: no grain and body together moved farther since the start
+  double drift_ = 0.0;     // m: no grain moved farther since it was sorted
+  double odometer_ = 0.0;  // m: no grain and body together moved farther since the start
   bool listed_ = false, must_rebuild_ = true;
   long rebuilds_ = 0, sorts_ = 0, substeps_ = 0, listed_at_ = 0;
   Index lost_ = 0;
@@ -144,20 +144,20 @@ class GrainSystem {
   std::vector<BodyMotionState> bodies_;
   std::vector<ListedPose> listed_poses_;
   std::vector<double> release_time_;
-  std::vector<std::int32_t> held_group_;          ///< 1: still held
+  std::vector<std::int32_t> held_group_;  ///< 1: still held
 
-  Index slots_ = 0;                               ///< of the arrays below (input order before the first sort)
+  Index slots_ = 0;  ///< of the arrays below (input order before the first sort)
   Array<FixedPosition, Exec> position_;
   Array<std::uint32_t, Exec> id_;
   Array<std::int32_t, Exec> group_;
-  Array<GrainRecord, Exec> now_, next_;           ///< next_ is room for what sorting and listing need
-  Array<Vec3f, Exec> velocity_, spin_;            ///< at half steps
-  Array<Vec3<std::int32_t>, Exec> start_;         ///< fraction bits when the lists were made
-  Array<float, Exec> quiet_until_;                ///< odometer reading up to which a grain is far from walls
-  FluidOnGrains fluid_;                           ///< pointers of the caller, and drag_impulse_
+  Array<GrainRecord, Exec> now_, next_;    ///< next_ is room for what sorting and listing need
+  Array<Vec3f, Exec> velocity_, spin_;     ///< at half steps
+  Array<Vec3<std::int32_t>, Exec> start_;  ///< fraction bits when the lists were made
+  Array<float, Exec> quiet_until_;         ///< odometer reading up to which a grain is far from walls
+  FluidOnGrains fluid_;                    ///< pointers of the caller, and drag_impulse_
   Array<Vec3d, Exec> drag_impulse_;
-  Array<exec::Largest, Exec> measure_;            ///< two a sub-step of a batch: of the walls, of the grains
-  exec::Batch<Exec> batch_;                       ///< sub-steps between two looks at their measures
+  Array<exec::Largest, Exec> measure_;  ///< two a sub-step of a batch: of the walls, of the grains
+  exec::Batch<Exec> batch_;             ///< sub-steps between two looks at their measures
   Array<std::int32_t, Exec> held_;
 };
 

@@ -14,8 +14,8 @@ struct GrainStart {
   std::vector<std::int32_t> group;
   std::vector<GrainRecord> record;
   std::vector<Vec3f> velocity, spin;
-  double largest_radius = 0.0, smallest_radius = 0.0, mean_radius = 0.0;   ///< m; 1 without grains
-  double mass = 0.0;                                                       ///< kg, of all
+  double largest_radius = 0.0, smallest_radius = 0.0, mean_radius = 0.0;  ///< m; 1 without grains
+  double mass = 0.0;                                                      ///< kg, of all
   float speed2 = 0.0f;
 };
 

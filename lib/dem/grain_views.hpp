@@ -10,14 +10,14 @@ namespace gdesp::dem {
 
 /// One grain at time n. Padding slots have radius = no_radius and touch nothing.
 struct alignas(64) GrainRecord {
-  std::int32_t x, y, z;    ///< fraction bits of the position
-  float radius;            ///< m
-  float vx, vy, vz;        ///< m/s at time n (predicted from the half step, second order)
-  float mass;              ///< kg
-  float sx, sy, sz;        ///< m/s: radius times angular velocity at time n
-  float mobility;          ///< 1: moves; just_released: moves from now on; 0: held
+  std::int32_t x, y, z;          ///< fraction bits of the position
+  float radius;                  ///< m
+  float vx, vy, vz;              ///< m/s at time n (predicted from the half step, second order)
+  float mass;                    ///< kg
+  float sx, sy, sz;              ///< m/s: radius times angular velocity at time n
+  float mobility;                ///< 1: moves; just_released: moves from now on; 0: held
   float rest_x, rest_y, rest_z;  ///< part of a unit that the position still owes
-  std::int32_t wall;       ///< number among the grains near walls, or -1
+  std::int32_t wall;             ///< number among the grains near walls, or -1
 };
 static_assert(sizeof(GrainRecord) == 64);
 inline constexpr int record_floats = 16;
@@ -26,34 +26,34 @@ inline constexpr float no_radius = -1.0e30f;
 
 /// Eight contacts or near neighbours of one grain. Empty lanes name the dummy record behind the last slot.
 struct alignas(64) ContactRow {
-  Index neighbour[8];               ///< slots
-  float fx[8], fy[8], fz[8];        ///< N, elastic tangential force on the grain (history)
+  Index neighbour[8];         ///< slots
+  float fx[8], fy[8], fz[8];  ///< N, elastic tangential force on the grain (history)
 };
 struct alignas(32) RollingRow {
-  float mx[8], my[8], mz[8];        ///< N m, elastic rolling torque on the grain (history)
+  float mx[8], my[8], mz[8];  ///< N m, elastic rolling torque on the grain (history)
 };
 
 /// Rows of a grain: the first is rows[slot], the others are rows[overflow ...].
 struct RowRange {
-  std::uint16_t count = 0;          ///< candidates
-  std::uint16_t held = 0;           ///< 1: the grain is held, its histories stand still
+  std::uint16_t count = 0;  ///< candidates
+  std::uint16_t held = 0;   ///< 1: the grain is held, its histories stand still
   Index overflow = 0;
 };
 
 /// Force and torque on one grain near a wall.
 struct WallForce {
-  Vec3f force, torque;              ///< N, N m
+  Vec3f force, torque;  ///< N, N m
 };
 
 /// What the fluid asks of the grains, by slot; null pointers in a dry run.
 struct FluidOnGrains {
-  const float* drag_coefficient = nullptr;   ///< kg/s
-  const float* fluid_mass = nullptr;         ///< kg, of the water that shares the drag
-  const float* added_mass = nullptr;         ///< kg
-  const Vec3f* other_force = nullptr;        ///< N
-  const Vec3f* fluid_acceleration = nullptr; ///< m/s2, of that water, but for drag
-  Vec3f* fluid_velocity = nullptr;           ///< m/s, of that water; goes on with the sub-steps
-  Vec3d* drag_impulse = nullptr;             ///< N s, given by the fluid, summed over sub-steps
+  const float* drag_coefficient = nullptr;    ///< kg/s
+  const float* fluid_mass = nullptr;          ///< kg, of the water that shares the drag
+  const float* added_mass = nullptr;          ///< kg
+  const Vec3f* other_force = nullptr;         ///< N
+  const Vec3f* fluid_acceleration = nullptr;  ///< m/s2, of that water, but for drag
+  Vec3f* fluid_velocity = nullptr;            ///< m/s, of that water; goes on with the sub-steps
+  Vec3d* drag_impulse = nullptr;              ///< N s, given by the fluid, summed over sub-steps
 };
 
 /// Metres per unit of a position, by axis, and its inverse.

@@ -41,10 +41,10 @@ inline double effective_shear_modulus(double e_1, double nu_1, double e_2, doubl
 }
 
 struct HertzMindlin {
-  float modulus = 0.0f;            ///< E*, Pa
-  float damping = 0.0f;            ///< 2 sqrt(5/6) beta sqrt(2 E*), so that the coefficient is damping sqrt(a m*)
-  float shear_stiffness = 0.0f;    ///< 8 G*, Pa
-  float shear_damping = 0.0f;      ///< as damping, with 8 G* for 2 E*
+  float modulus = 0.0f;          ///< E*, Pa
+  float damping = 0.0f;          ///< 2 sqrt(5/6) beta sqrt(2 E*), so that the coefficient is damping sqrt(a m*)
+  float shear_stiffness = 0.0f;  ///< 8 G*, Pa
+  float shear_damping = 0.0f;    ///< as damping, with 8 G* for 2 E*
 
   /// `delta` > 0 (m), `radius` R* (m), `mass` m* (kg).
   template <class R>

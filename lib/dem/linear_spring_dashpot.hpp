@@ -24,10 +24,10 @@
 namespace gdesp::dem {
 
 struct LinearSpringDashpot {
-  float stiffness = 0.0f;         ///< k, N/m
-  float damping = 0.0f;           ///< 2 beta sqrt(k), so that the coefficient is damping sqrt(m*)
-  float shear_stiffness = 0.0f;   ///< k_t, N/m
-  float shear_damping = 0.0f;     ///< 2 beta sqrt(k_t)
+  float stiffness = 0.0f;        ///< k, N/m
+  float damping = 0.0f;          ///< 2 beta sqrt(k), so that the coefficient is damping sqrt(m*)
+  float shear_stiffness = 0.0f;  ///< k_t, N/m
+  float shear_damping = 0.0f;    ///< 2 beta sqrt(k_t)
 
   /// `delta` > 0 (m), R* (m, unused), `mass` m* (kg).
   template <class R>

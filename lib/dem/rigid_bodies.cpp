@@ -49,7 +49,8 @@ void find_principal_axes(const Body& body, Vec3d& moments, Quaternion& axes) {
   std::copy(std::begin(body.inertia), std::end(body.inertia), m);
   diagonalise(m, columns);
   moments = {m[0], m[4], m[8]};
-  const Vec3d x{columns[0], columns[3], columns[6]}, y{columns[1], columns[4], columns[7]}, z{columns[2], columns[5], columns[8]};
+  const Vec3d x{columns[0], columns[3], columns[6]}, y{columns[1], columns[4], columns[7]},
+      z{columns[2], columns[5], columns[8]};
   if (dot(cross(x, y), z) < 0.0) {
     for (int k = 0; k < 3; ++k) columns[3 * k + 2] = -columns[3 * k + 2];
   }
@@ -58,9 +59,12 @@ void find_principal_axes(const Body& body, Vec3d& moments, Quaternion& axes) {
 
 void check_body(const Body& body, const Vec3d& moments, std::size_t points) {
   const std::string name = "body \"" + body.name + "\": ";
-  if (!(body.mass > 0.0)) throw Error(ErrorKind::input, name + "mass " + std::to_string(body.mass) + " kg; valid: above 0");
+  if (!(body.mass > 0.0))
+    throw Error(ErrorKind::input, name + "mass " + std::to_string(body.mass) + " kg; valid: above 0");
   for (int k = 0; k < 3; ++k) {
-    if (!(moments[k] >= 0.0)) throw Error(ErrorKind::input, name + "a principal moment of inertia is " + std::to_string(moments[k]) + " kg m2; valid: 0 or more");
+    if (!(moments[k] >= 0.0))
+      throw Error(ErrorKind::input,
+                  name + "a principal moment of inertia is " + std::to_string(moments[k]) + " kg m2; valid: 0 or more");
   }
   if (points == 0) throw Error(ErrorKind::input, name + "has no surface: no wall triangle names it");
 }
@@ -114,7 +118,8 @@ BodyMoment RigidBodies::moment(std::size_t b, double ahead) const {
   const RigidState& s = state_[b];
   BodyMoment m;
   m.centre = s.centre + ahead * s.velocity;
-  const Quaternion q = ahead != 0.0 && s.free ? freely_rotated(s.orientation, s.angular_momentum, inertia_[b], ahead) : s.orientation;
+  const Quaternion q =
+      ahead != 0.0 && s.free ? freely_rotated(s.orientation, s.angular_momentum, inertia_[b], ahead) : s.orientation;
   to_matrix(q * conjugate(principal_[b]), m.rotation);
   m.velocity = s.velocity;
   m.spin = angular_velocity(q, s.angular_momentum, inertia_[b]);
@@ -210,14 +215,16 @@ RigidSums RigidBodies::sums() const {
     if (!is_free_kind(b)) continue;
     const RigidState& s = state_[b];
     const double m = bodies_[b].mass;
-    sums.kinetic_energy += 0.5 * m * dot(s.velocity, s.velocity) +
-                           0.5 * dot(angular_velocity(s.orientation, s.angular_momentum, inertia_[b]), s.angular_momentum);
+    sums.kinetic_energy +=
+        0.5 * m * dot(s.velocity, s.velocity) +
+        0.5 * dot(angular_velocity(s.orientation, s.angular_momentum, inertia_[b]), s.angular_momentum);
     sums.potential_energy -= m * dot(gravity_, s.centre);
     sums.momentum += m * s.velocity;
     sums.angular_momentum += cross(s.centre, m * s.velocity) + s.angular_momentum;
   }
   for (const PointMemory& p : memory_) {
-    if (p.touching && law_.shear_stiffness > 0.0) sums.elastic_energy += 0.5 * dot(p.tangential, p.tangential) / law_.shear_stiffness;
+    if (p.touching && law_.shear_stiffness > 0.0)
+      sums.elastic_energy += 0.5 * dot(p.tangential, p.tangential) / law_.shear_stiffness;
   }
   sums.elastic_energy += normal_energy();
   return sums;
@@ -227,14 +234,20 @@ void RigidBodies::check(const Vec3d& lower, const Vec3d& upper, double time) con
   for (std::size_t b = 0; b < count(); ++b) {
     if (!is_free_kind(b)) continue;
     const RigidState& s = state_[b];
-    const double sum = dot(s.centre, s.centre) + dot(s.velocity, s.velocity) + dot(s.angular_momentum, s.angular_momentum) + s.orientation.w;
+    const double sum = dot(s.centre, s.centre) + dot(s.velocity, s.velocity) +
+                       dot(s.angular_momentum, s.angular_momentum) + s.orientation.w;
     const std::string where = "body \"" + bodies_[b].name + "\" at t = " + std::to_string(time) + " s: ";
-    if (!std::isfinite(sum)) throw Error(ErrorKind::numerical, where + "has no finite state; a smaller time step (numerics.cfl) or softer contacts ([contact]) are needed");
+    if (!std::isfinite(sum))
+      throw Error(
+          ErrorKind::numerical,
+          where + "has no finite state; a smaller time step (numerics.cfl) or softer contacts ([contact]) are needed");
     for (int axis = 0; axis < 3; ++axis) {
       if (dimensions_ == 2 && axis == 1) continue;
       if (s.centre[axis] >= lower[axis] && s.centre[axis] <= upper[axis]) continue;
-      throw Error(ErrorKind::numerical, where + "its centre has left the domain (" + "xyz"[axis] + " = " + std::to_string(s.centre[axis]) + " m, valid " +
-                                            std::to_string(lower[axis]) + " to " + std::to_string(upper[axis]) + " m); a larger [domain] or a wall keeps it");
+      throw Error(ErrorKind::numerical, where + "its centre has left the domain (" + "xyz"[axis] + " = " +
+                                            std::to_string(s.centre[axis]) + " m, valid " +
+                                            std::to_string(lower[axis]) + " to " + std::to_string(upper[axis]) +
+                                            " m); a larger [domain] or a wall keeps it");
     }
   }
 }

@@ -21,18 +21,18 @@ struct BodyLoad {
 };
 
 struct RigidState {
-  Vec3d centre, velocity;          ///< m, m/s
-  Vec3d angular_momentum;          ///< kg m2/s, about the centre, world axes
-  Quaternion orientation;          ///< from principal to world axes
-  BodyLoad fluid, solid;           ///< of the last step: of water; of walls, bodies and grains
-  std::int32_t free = 0;           ///< 1: moves; 0: still held, or prescribed
+  Vec3d centre, velocity;  ///< m, m/s
+  Vec3d angular_momentum;  ///< kg m2/s, about the centre, world axes
+  Quaternion orientation;  ///< from principal to world axes
+  BodyLoad fluid, solid;   ///< of the last step: of water; of walls, bodies and grains
+  std::int32_t free = 0;   ///< 1: moves; 0: still held, or prescribed
   std::int32_t reserved = 0;
 };
 
 /// Sums over the free bodies.
 struct RigidSums {
-  double kinetic_energy = 0.0, potential_energy = 0.0, elastic_energy = 0.0;   ///< J; potential: -m g . r
-  Vec3d momentum, angular_momentum;                                             ///< kg m/s; kg m2/s about the origin
+  double kinetic_energy = 0.0, potential_energy = 0.0, elastic_energy = 0.0;  ///< J; potential: -m g . r
+  Vec3d momentum, angular_momentum;                                           ///< kg m/s; kg m2/s about the origin
 };
 
 class RigidBodies {
@@ -41,7 +41,10 @@ class RigidBodies {
   RigidBodies(const std::vector<Body>& bodies, const TriangleTable& walls, const ContactParameters& contact,
               const Vec3d& gravity, double spacing, int dimensions);
   /// The still water (kg/m3, m) whose pressure friction feels between a body and the ground. Default: none.
-  void set_still_water(double density, double level) { water_density_ = density; water_level_ = level; }
+  void set_still_water(double density, double level) {
+    water_density_ = density;
+    water_level_ = level;
+  }
 
   std::size_t count() const { return state_.size(); }
   bool is_free_kind(std::size_t b) const { return bodies_[b].kind == BodyKind::free; }
@@ -75,18 +78,18 @@ class RigidBodies {
   }
 
  private:
-  struct PointMemory {              ///< a point near another body
+  struct PointMemory {  ///< a point near another body
     std::int32_t body, other, point;
-    std::int32_t first, count;      ///< its triangles
+    std::int32_t first, count;  ///< its triangles
     std::int32_t touching;
-    double first_depth;             ///< m, from where the depth counts
-    double depth;                   ///< m, of the last step
-    Vec3d tangential;               ///< N
+    double first_depth;  ///< m, from where the depth counts
+    double depth;        ///< m, of the last step
+    Vec3d tangential;    ///< N
   };
-  struct Found {                    ///< a touch of this moment
+  struct Found {  ///< a touch of this moment
     std::size_t memory;
     PointTouch touch;
-    Vec3d place;                    ///< m, where the two meet
+    Vec3d place;  ///< m, where the two meet
   };
 
   BodyMoment moment_of(std::int32_t number) const;
@@ -120,10 +123,10 @@ class RigidBodies {
   double spacing_ = 0.0, water_density_ = 0.0, water_level_ = 0.0;
   int dimensions_ = 3;
   std::vector<RigidState> state_;
-  std::vector<BodyMoment> other_;                 ///< of prescribed bodies
+  std::vector<BodyMoment> other_;  ///< of prescribed bodies
   std::vector<std::int32_t> present_;
-  std::vector<PointMemory> memory_;               ///< by body, other, point
-  std::vector<ListedPose> listed_;                ///< by body number, when the lists were made
+  std::vector<PointMemory> memory_;  ///< by body, other, point
+  std::vector<ListedPose> listed_;   ///< by body number, when the lists were made
   std::vector<Index> triangle_;
   double largest_depth_ = 0.0;
 };

@@ -27,10 +27,10 @@ namespace gdesp::dem {
 
 /// Of every contact point of one body.
 struct RigidContactLaw {
-  double stiffness = 0.0;         ///< k, N/m
-  double shear_stiffness = 0.0;   ///< k_t, N/m
-  double damping_ratio = 0.0;     ///< beta
-  double friction = 0.0;          ///< mu
+  double stiffness = 0.0;        ///< k, N/m
+  double shear_stiffness = 0.0;  ///< k_t, N/m
+  double damping_ratio = 0.0;    ///< beta
+  double friction = 0.0;         ///< mu
 };
 
 /// One point that touches.

@@ -82,7 +82,9 @@ void RigidBodies::list_pair(std::int32_t body, std::int32_t other) {
   if (surface.root < 0 || !is_there(other)) return;
   const double reach = (deepest + list_skin) * spacing_;
   const BodyMoment own = moment_of(body), others = moment_of(other);
-  if (norm(to_start(other, others, own.centre) - surface.middle) > reach_[static_cast<std::size_t>(body)] + surface.reach + reach) return;
+  if (norm(to_start(other, others, own.centre) - surface.middle) >
+      reach_[static_cast<std::size_t>(body)] + surface.reach + reach)
+    return;
   const auto points = static_cast<std::int32_t>(point_[static_cast<std::size_t>(body - 1)].size());
   for (std::int32_t k = 0; k < points; ++k) {
     const auto first = static_cast<std::int32_t>(triangle_.size());
@@ -109,7 +111,8 @@ void RigidBodies::note_first_depths() {
 double RigidBodies::pore_force(const PointMemory& p, const Vec3d& place) const {
   if (moves(p.other)) return 0.0;
   const double head = std::max(0.0, water_level_ - place.z);
-  return -gravity_.z * water_density_ * head * point_[static_cast<std::size_t>(p.body - 1)][static_cast<std::size_t>(p.point)].area;
+  return -gravity_.z * water_density_ * head *
+         point_[static_cast<std::size_t>(p.body - 1)][static_cast<std::size_t>(p.point)].area;
 }
 
 std::vector<RigidBodies::Found> RigidBodies::find_touches() {
@@ -120,7 +123,8 @@ std::vector<RigidBodies::Found> RigidBodies::find_touches() {
   for (std::size_t k = 0; k < memory_.size(); ++k) {
     PointMemory& p = memory_[k];
     if (!moves(p.body) && !moves(p.other)) continue;
-    const BodyMoment &own = moment[static_cast<std::size_t>(p.body)], &other = moment[static_cast<std::size_t>(p.other)];
+    const BodyMoment &own = moment[static_cast<std::size_t>(p.body)],
+                     &other = moment[static_cast<std::size_t>(p.other)];
     const Vec3d place = point_now(p.body, p.point, own);
     const NearestPlace near = place_of(p, place, other);
     const double depth = near.triangle >= 0 ? std::max(0.0, -near.distance) : 0.0;
@@ -133,7 +137,8 @@ std::vector<RigidBodies::Found> RigidBodies::find_touches() {
     }
     p.touching = 1;
     ++touching[static_cast<std::size_t>(p.body)];
-    const Vec3d velocity = own.velocity + cross(own.spin, place - own.centre) - other.velocity - cross(other.spin, place - other.centre);
+    const Vec3d velocity =
+        own.velocity + cross(own.spin, place - own.centre) - other.velocity - cross(other.spin, place - other.centre);
     found.push_back({k, {near.n, p.depth, velocity, 0.0, pore_force(p, place)}, place});
   }
   largest_depth_ = 0.0;

@@ -68,7 +68,8 @@ inline void to_matrix(const Quaternion& q, double m[9]) {
   m[8] = 1.0 - 2.0 * (q.x * q.x + q.y * q.y);
 }
 inline Vec3d multiply(const double m[9], const Vec3d& v) {
-  return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[3] * v.x + m[4] * v.y + m[5] * v.z, m[6] * v.x + m[7] * v.y + m[8] * v.z};
+  return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[3] * v.x + m[4] * v.y + m[5] * v.z,
+          m[6] * v.x + m[7] * v.y + m[8] * v.z};
 }
 inline Vec3d rotated(const Quaternion& q, const Vec3d& v) {
   double m[9];

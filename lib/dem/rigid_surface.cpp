@@ -16,7 +16,8 @@ class PointCollector {
  public:
   PointCollector(double weld, std::vector<SurfacePoint>& points) : inverse_(1.0 / weld), points_(points) {}
   void add(const Vec3d& p, double area) {
-    const std::array<long long, 3> cell{std::llround(p.x * inverse_), std::llround(p.y * inverse_), std::llround(p.z * inverse_)};
+    const std::array<long long, 3> cell{std::llround(p.x * inverse_), std::llround(p.y * inverse_),
+                                        std::llround(p.z * inverse_)};
     const auto [known, fresh] = seen_.try_emplace(cell, points_.size());
     if (fresh) points_.push_back({p, 0.0});
     points_[known->second].area += area;
@@ -28,12 +29,15 @@ class PointCollector {
   std::map<std::array<long long, 3>, std::size_t> seen_;
 };
 
-int parts_of(double length, double spacing) { return std::max(1, static_cast<int>(std::ceil(length / spacing - 1e-6))); }
+int parts_of(double length, double spacing) {
+  return std::max(1, static_cast<int>(std::ceil(length / spacing - 1e-6)));
+}
 
 void add_line(const Vec3d& a, const Vec3d& b, double spacing, PointCollector& out) {
   const int n = parts_of(norm(b - a), spacing);
   const double share = norm(b - a) / n;
-  for (int i = 0; i <= n; ++i) out.add(a + (static_cast<double>(i) / n) * (b - a), i == 0 || i == n ? 0.5 * share : share);
+  for (int i = 0; i <= n; ++i)
+    out.add(a + (static_cast<double>(i) / n) * (b - a), i == 0 || i == n ? 0.5 * share : share);
 }
 
 // A lattice of barycentric coordinates whose longest side is cut into parts of at most `spacing`.
@@ -45,15 +49,16 @@ void add_triangle(const Vec3d (&c)[3], double spacing, PointCollector& out) {
     for (int j = 0; i + j <= n; ++j) {
       // The small triangles that meet here: one at a corner of the large one, three on its sides, six inside.
       const int sides = (i == 0) + (j == 0) + (i + j == n);
-      out.add(c[0] + (static_cast<double>(i) / n) * e + (static_cast<double>(j) / n) * f, third * (sides == 0 ? 6 : (sides == 1 ? 3 : 1)));
+      out.add(c[0] + (static_cast<double>(i) / n) * e + (static_cast<double>(j) / n) * f,
+              third * (sides == 0 ? 6 : (sides == 1 ? 3 : 1)));
     }
   }
 }
 
 struct Candidate {
   double distance2;
-  Vec3d gap;       // from the surface to the point
-  int feature;     // 0 face, 1 + k edge k, 4 + k vertex k
+  Vec3d gap;    // from the surface to the point
+  int feature;  // 0 face, 1 + k edge k, 4 + k vertex k
 };
 
 // Nearest place of the segment from a to b.
@@ -62,7 +67,8 @@ void try_edge(const Vec3d& p, const Vec3d& a, const Vec3d& b, int k, Candidate& 
   const double share = std::clamp(dot(p - a, e) / dot(e, e), 0.0, 1.0);
   const Vec3d gap = p - (a + share * e);
   const double distance2 = dot(gap, gap);
-  if (distance2 < best.distance2) best = {distance2, gap, share <= 0.0 ? 4 + k : (share >= 1.0 ? 4 + (k + 1) % 3 : 1 + k)};
+  if (distance2 < best.distance2)
+    best = {distance2, gap, share <= 0.0 ? 4 + k : (share >= 1.0 ? 4 + (k + 1) % 3 : 1 + k)};
 }
 
 Candidate nearest_of_triangle(const WallMesh& mesh, const Vec3d& p, Index t) {
@@ -105,7 +111,8 @@ Vec3d outward(const WallMesh& mesh, Index t, int feature) {
 double box_distance2(const WallNode& node, const Vec3d& p) {
   double sum = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
-    const double d = std::max({static_cast<double>(node.lower[axis]) - p[axis], 0.0, p[axis] - static_cast<double>(node.upper[axis])});
+    const double d = std::max(
+        {static_cast<double>(node.lower[axis]) - p[axis], 0.0, p[axis] - static_cast<double>(node.upper[axis])});
     sum += d * d;
   }
   return sum;
@@ -113,7 +120,8 @@ double box_distance2(const WallNode& node, const Vec3d& p) {
 
 }  // namespace
 
-std::vector<SurfacePoint> surface_points(const TriangleTable& walls, std::int32_t number, double spacing, int dimensions) {
+std::vector<SurfacePoint> surface_points(const TriangleTable& walls, std::int32_t number, double spacing,
+                                         int dimensions) {
   TriangleTable own;
   own.vertex = walls.vertex;
   for (std::size_t t = 0; t < walls.triangle.size(); ++t) {
@@ -126,7 +134,8 @@ std::vector<SurfacePoint> surface_points(const TriangleTable& walls, std::int32_
   if (dimensions == 2) {
     const TriangleTable strips = make_wall_strips(own, 1.0e-6 * spacing, 1.0);
     for (std::size_t v = 0; v + 3 < strips.vertex.size(); v += 4) {
-      add_line(0.5 * (strips.vertex[v] + strips.vertex[v + 3]), 0.5 * (strips.vertex[v + 1] + strips.vertex[v + 2]), spacing, collector);
+      add_line(0.5 * (strips.vertex[v] + strips.vertex[v + 3]), 0.5 * (strips.vertex[v + 1] + strips.vertex[v + 2]),
+               spacing, collector);
     }
     return points;
   }
@@ -138,7 +147,8 @@ std::vector<SurfacePoint> surface_points(const TriangleTable& walls, std::int32_
   return points;
 }
 
-void triangles_near(const WallMesh& mesh, std::int32_t body, const Vec3d& point, double reach, std::vector<Index>& found) {
+void triangles_near(const WallMesh& mesh, std::int32_t body, const Vec3d& point, double reach,
+                    std::vector<Index>& found) {
   const WallBody& tree = mesh.body[static_cast<std::size_t>(body)];
   if (tree.root < 0) return;
   const Vec3d p = point - tree.middle;
@@ -173,10 +183,12 @@ NearestPlace nearest_place(const WallMesh& mesh, const Vec3d& point, const Index
   if (place.triangle < 0) return place;
   const Vec3d out = outward(mesh, place.triangle, best.feature);
   const double distance = std::sqrt(best.distance2), side = dot(best.gap, out) < 0.0 ? -1.0 : 1.0;
-  if (on_rim(mesh, place.triangle, best.feature) && norm(cross(best.gap, out)) > 1.0e-3 * distance * norm(out)) return {};
+  if (on_rim(mesh, place.triangle, best.feature) && norm(cross(best.gap, out)) > 1.0e-3 * distance * norm(out))
+    return {};
   place.distance = side * distance;
   // On the surface itself the gap has no direction.
-  const Vec3d direction = best.feature == 0 || distance < 1.0e-9 * norm(point - mesh.body.front().middle) + 1.0e-12 ? out : side * best.gap;
+  const Vec3d direction =
+      best.feature == 0 || distance < 1.0e-9 * norm(point - mesh.body.front().middle) + 1.0e-12 ? out : side * best.gap;
   place.n = (1.0 / norm(direction)) * direction;
   return place;
 }

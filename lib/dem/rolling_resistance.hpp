@@ -17,13 +17,13 @@ namespace gdesp::dem {
 
 template <class R>
 struct RollingMotion {
-  Vec3<R> n;          ///< unit, from j to i
-  Vec3<R> w;          ///< w_i - w_j, rad/s
-  R radius;           ///< R*, m
-  R inertia;          ///< I_r, kg m2
-  R normal_force;     ///< >= 0, N
-  R half_before;      ///< s
-  R half_after;       ///< s
+  Vec3<R> n;       ///< unit, from j to i
+  Vec3<R> w;       ///< w_i - w_j, rad/s
+  R radius;        ///< R*, m
+  R inertia;       ///< I_r, kg m2
+  R normal_force;  ///< >= 0, N
+  R half_before;   ///< s
+  R half_after;    ///< s
 };
 
 /// Share of I_r/dt (dem.damping.limit).
@@ -38,7 +38,7 @@ GDESP_HD inline Vec3<R> rolling_torque(float friction, const R& normal_stiffness
   using real::sqrt;
   const R reach = R(friction) * m.radius;
   const R stiffness = R(2.25f) * normal_stiffness * reach * reach;
-  const R most = m.inertia * (R(most_rolling_damping) / (m.half_before + m.half_after));   // dem.damping.limit
+  const R most = m.inertia * (R(most_rolling_damping) / (m.half_before + m.half_after));  // dem.damping.limit
   const R damping = min(R(0.6f) * sqrt(m.inertia * stiffness), most);
   const R spin = dot(m.w, m.n);
   const Vec3<R> w{m.w.x - spin * m.n.x, m.w.y - spin * m.n.y, m.w.z - spin * m.n.z};

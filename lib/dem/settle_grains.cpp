@@ -10,13 +10,15 @@
 namespace gdesp::dem {
 namespace {
 
-constexpr double restitution = 0.5;    // of a scene by default
-constexpr double step_share = 0.2;     // of the critical time
-constexpr double rest_speed = 1.0e-3;  // sqrt(g d)
-constexpr double longest = 10.0;       // sqrt(2 H / g)
-constexpr double resting_share = 0.95; // of the grains: the others may rattle in the gaps between those that bear
+constexpr double restitution = 0.5;     // of a scene by default
+constexpr double step_share = 0.2;      // of the critical time
+constexpr double rest_speed = 1.0e-3;   // sqrt(g d)
+constexpr double longest = 10.0;        // sqrt(2 H / g)
+constexpr double resting_share = 0.95;  // of the grains: the others may rattle in the gaps between those that bear
 
-struct Extent { Vec3d lower, upper; };   // m
+struct Extent {
+  Vec3d lower, upper;
+};  // m
 
 /// Of points, `margin` (m) wider on every side.
 Extent extent_of(const std::vector<Vec3d>& points, const std::vector<Vec3d>& more, double margin) {
@@ -39,7 +41,9 @@ double mean_of(const std::vector<float>& values) {
 }
 
 /// m/s, of the mass.
-double speed_of(const GrainSums& sums) { return sums.mass > 0.0 ? std::sqrt(2.0 * sums.kinetic_energy / sums.mass) : 0.0; }
+double speed_of(const GrainSums& sums) {
+  return sums.mass > 0.0 ? std::sqrt(2.0 * sums.kinetic_energy / sums.mass) : 0.0;
+}
 
 /// m/s: what `share` of the grains stay below.
 double speed_of_most(const GrainTable& grains, double share) {
@@ -59,13 +63,15 @@ Settlement settle_grains(GrainTable& grains, const TriangleTable& walls, const S
   const double gravity = norm(conditions.gravity);
   if (!(gravity > 0.0)) throw Error(ErrorKind::input, "grains cannot settle without gravity: domain.gravity is zero");
   const double diameter = mean_of(grains.diameter);
-  const Extent bed = extent_of(grains.position, {}, diameter), space = extent_of(grains.position, walls.vertex, 2.0 * diameter);
+  const Extent bed = extent_of(grains.position, {}, diameter),
+               space = extent_of(grains.position, walls.vertex, 2.0 * diameter);
   ContactParameters contact = conditions.contact;
   contact.restitution = contact.wall_restitution = restitution;
   const bool periodic[3] = {false, false, false};
-  GrainSystem<exec::OpenMP> system({}, make_domain(space.lower, space.upper, diameter, periodic, conditions.dimensions), grains, contact, walls,
-                                   conditions.gravity);
-  const double step = system.stable_time_step(step_share), height = std::abs(dot(bed.upper - bed.lower, conditions.gravity)) / gravity;
+  GrainSystem<exec::OpenMP> system({}, make_domain(space.lower, space.upper, diameter, periodic, conditions.dimensions),
+                                   grains, contact, walls, conditions.gravity);
+  const double step = system.stable_time_step(step_share),
+               height = std::abs(dot(bed.upper - bed.lower, conditions.gravity)) / gravity;
   const double last = longest * std::sqrt(2.0 * height / gravity), look = std::sqrt(diameter / gravity);
   const int substeps = std::max(1, static_cast<int>(std::ceil(look / step)));
   const double slow_speed = rest_speed * std::sqrt(gravity * diameter);
@@ -80,7 +86,8 @@ Settlement settle_grains(GrainTable& grains, const TriangleTable& walls, const S
   out.lost = static_cast<std::size_t>(system.lost());
   GrainTable settled = system.table();
   out.at_rest = out.at_rest || speed_of_most(settled, resting_share) < slow_speed;
-  if (conditions.dimensions == 2) for (Vec3d& r : settled.position) r.y = 0.0;
+  if (conditions.dimensions == 2)
+    for (Vec3d& r : settled.position) r.y = 0.0;
   settled.velocity.clear();
   settled.angular_velocity.clear();
   settled.id.clear();

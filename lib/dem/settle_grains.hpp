@@ -10,7 +10,7 @@ namespace gdesp::dem {
 
 struct SettlingConditions {
   ContactParameters contact;
-  Vec3d gravity;                ///< m/s2
+  Vec3d gravity;  ///< m/s2
   int dimensions = 3;
 };
 

@@ -112,8 +112,8 @@ struct WallSearch {
         if (!image_needed(x.x, 0, sx, reach)) continue;
         for (int sy = -1; sy <= 1; ++sy) {
           if (!image_needed(x.y, 1, sy, reach)) continue;
-          const Vec3d image{x.x + sx * domain.tile_size.x * domain.tiles.x, x.y + sy * domain.tile_size.y * domain.tiles.y,
-                            x.z};
+          const Vec3d image{x.x + sx * domain.tile_size.x * domain.tiles.x,
+                            x.y + sy * domain.tile_size.y * domain.tiles.y, x.z};
           in_body(body, apply(pose.to_body, image - pose.centre) + pose.centre_initial, reach, visit);
         }
       }
@@ -125,21 +125,21 @@ struct WallSearch {
 // and bodies together have moved that far (odometer).
 struct CountRows {
   WallSearch search;
-  double odometer, look_ahead;   // m
-  float* quiet_until;            // m, by slot
+  double odometer, look_ahead;  // m
+  float* quiet_until;           // m, by slot
   Index* near;
   Index* rows_needed;
 
   GDESP_HD Index count(Index i) const {
     const GrainRecord& own = search.records[i];
-    if (!(own.radius > 0.0f && own.mobility > 0.0f) || static_cast<double>(quiet_until[i]) > odometer + search.skin) return 0;
+    if (!(own.radius > 0.0f && own.mobility > 0.0f) || static_cast<double>(quiet_until[i]) > odometer + search.skin)
+      return 0;
     Index found = 0;
     search(i, search.list_reach(i), [&](Index, const Vec3d&, double) { ++found; });
     if (found > 0) return found;
     double nearest2 = (search.list_reach(i) + look_ahead) * (search.list_reach(i) + look_ahead);
-    search(i, search.list_reach(i) + look_ahead, [&](Index, const Vec3d&, double distance2) {
-      nearest2 = distance2 < nearest2 ? distance2 : nearest2;
-    });
+    search(i, search.list_reach(i) + look_ahead,
+           [&](Index, const Vec3d&, double distance2) { nearest2 = distance2 < nearest2 ? distance2 : nearest2; });
     quiet_until[i] = static_cast<float>(odometer + 0.999 * (::sqrt(nearest2) - own.radius));
     return 0;
   }
@@ -209,16 +209,16 @@ struct FillRows {
         for (Index s = begin; s < end && !other_side; ++s) {
           for (int m = 0; m < 8; ++m) {
             const float front = rows[s].height[m];
-            other_side = other_side || (front > 0.0f && front < radius && rows[s].body[m] == rows[r].body[l] &&
-                                        over_face(rows[s], m) &&
-                                        dot(search.mesh.frame[rows[s].triangle[m]].n, n) < -0.5f);
+            other_side =
+                other_side || (front > 0.0f && front < radius && rows[s].body[m] == rows[r].body[l] &&
+                               over_face(rows[s], m) && dot(search.mesh.frame[rows[s].triangle[m]].n, n) < -0.5f);
           }
         }
         if (other_side || memory.count >= wall_contact_limit) continue;
         WallContact contact{};
         const double* m = search.poses[rows[r].body[l]].to_body;
         contact.n = static_cast<Vec3f>(Vec3d{m[0] * n.x + m[3] * n.y + m[6] * n.z, m[1] * n.x + m[4] * n.y + m[7] * n.z,
-                                m[2] * n.x + m[5] * n.y + m[8] * n.z});
+                                             m[2] * n.x + m[5] * n.y + m[8] * n.z});
         contact.body = rows[r].body[l];
         memory.contact[memory.count++] = contact;
       }
@@ -258,8 +258,9 @@ struct SetLast {
 template <class Exec>
 WallContacts<Exec>::WallContacts(const Exec& exec, const Domain& domain, const WallMesh& mesh, double impulse_unit)
     : exec_(exec), domain_(domain), host_bodies_(mesh.body), impulse_unit_(impulse_unit), frame_(exec), corners_(exec),
-      edge_(exec), vertex_(exec), smooth_(exec), ring_of_(exec), ring_(exec), node_(exec), body_(exec), listed_(exec), pose_(exec),
-      slot_(exec), row_begin_(exec), rows_(exec), gaps_(exec), history_(exec), force_(exec), impulse_(exec) {
+      edge_(exec), vertex_(exec), smooth_(exec), ring_of_(exec), ring_(exec), node_(exec), body_(exec), listed_(exec),
+      pose_(exec), slot_(exec), row_begin_(exec), rows_(exec), gaps_(exec), history_(exec), force_(exec),
+      impulse_(exec) {
   frame_.assign(mesh.frame);
   corners_.assign(mesh.corners);
   edge_.assign(mesh.edge);
@@ -280,8 +281,8 @@ double WallContacts<Exec>::body_reach(int body, const Vec3d& centre) const {
 
 template <class Exec>
 WallMeshView WallContacts<Exec>::mesh_view() const {
-  return {frame_.data(), corners_.data(), edge_.data(), vertex_.data(), smooth_.data(), ring_of_.data(),
-          ring_.data(),  node_.data(),    body_.data(), static_cast<Index>(host_bodies_.size())};
+  return {frame_.data(),   corners_.data(), edge_.data(), vertex_.data(), smooth_.data(),
+          ring_of_.data(), ring_.data(),    node_.data(), body_.data(),   static_cast<Index>(host_bodies_.size())};
 }
 
 template <class Exec>
@@ -345,9 +346,9 @@ std::vector<BodyImpulse> WallContacts<Exec>::take_impulses() {
 }
 
 template class WallContacts<exec::CompiledBackend>;
-template void WallContacts<exec::CompiledBackend>::step(const ContactLaws<HertzMindlin>&, const WallMotion&,
-                                                        int, const exec::Gate&, exec::Largest*);
-template void WallContacts<exec::CompiledBackend>::step(const ContactLaws<LinearSpringDashpot>&, const WallMotion&,
-                                                        int, const exec::Gate&, exec::Largest*);
+template void WallContacts<exec::CompiledBackend>::step(const ContactLaws<HertzMindlin>&, const WallMotion&, int,
+                                                        const exec::Gate&, exec::Largest*);
+template void WallContacts<exec::CompiledBackend>::step(const ContactLaws<LinearSpringDashpot>&, const WallMotion&, int,
+                                                        const exec::Gate&, exec::Largest*);
 
 }  // namespace gdesp::dem

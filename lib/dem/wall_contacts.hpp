@@ -9,17 +9,17 @@ namespace gdesp::dem {
 
 /// Body axes and place, for listing.
 struct ListedPose {
-  double to_body[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};   ///< R^T
-  Vec3d centre, centre_initial;                      ///< m
+  double to_body[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< R^T
+  Vec3d centre, centre_initial;                     ///< m
   std::int32_t present = 1, reserved = 0;
 };
 
 /// The grains as a sub-step finds them.
 struct WallMotion {
   const GrainRecord* now;
-  const Vec3<std::int32_t>* start;   ///< fraction bits when the lists were made
+  const Vec3<std::int32_t>* start;  ///< fraction bits when the lists were made
   HalfSteps half;
-  float inertia_factor;              ///< I / (m R^2)
+  float inertia_factor;  ///< I / (m R^2)
 };
 
 /// How far to look for walls. The odometer is the way that no grain and body together have exceeded since the start;
@@ -39,8 +39,8 @@ class WallContacts {
 
   bool empty() const { return frame_.empty(); }
   Index grains() const { return grains_; }
-  int bodies() const { return static_cast<int>(host_bodies_.size()); }   ///< with the walls at rest as number 0
-  double body_reach(int body, const Vec3d& centre) const;              ///< m, farthest corner from the centre
+  int bodies() const { return static_cast<int>(host_bodies_.size()); }  ///< with the walls at rest as number 0
+  double body_reach(int body, const Vec3d& centre) const;               ///< m, farthest corner from the centre
 
   /// Lists the triangles within radius + reach.skin of each grain that may move, and takes over the contacts of grains that
   /// had some (GrainRecord::wall names their old number; it becomes the new one). `poses`: by body number.

@@ -127,13 +127,17 @@ struct Builder {
 
   // Half edges sorted by their vertices; two of opposite direction are one inner edge.
   void edges() {
-    struct Half { std::int64_t key; std::size_t edge; bool forward; };
+    struct Half {
+      std::int64_t key;
+      std::size_t edge;
+      bool forward;
+    };
     std::vector<Half> halves;
     for (std::size_t t = 0; t < surface.triangle.size(); ++t) {
       for (int k = 0; k < 3; ++k) {
         const std::int64_t from = surface.triangle[t][k], to = surface.triangle[t][(k + 1) % 3];
-        halves.push_back({(std::min(from, to) << 32) | std::max(from, to), 3 * t + static_cast<std::size_t>(k),
-                          from < to});
+        halves.push_back(
+            {(std::min(from, to) << 32) | std::max(from, to), 3 * t + static_cast<std::size_t>(k), from < to});
       }
     }
     std::sort(halves.begin(), halves.end(),
@@ -156,7 +160,9 @@ struct Builder {
 
   void rings() {
     mesh.ring_of.assign(surface.point.size(), VertexRing{});
-    struct Spoke { std::int32_t from, to; };
+    struct Spoke {
+      std::int32_t from, to;
+    };
     std::vector<Spoke> spokes;
     std::vector<Vec3d> outward(surface.point.size());
     for (std::size_t t = 0; t < surface.triangle.size(); ++t) {
@@ -189,8 +195,8 @@ struct Builder {
 
 struct TreeBuilder {
   WallMesh& mesh;
-  std::vector<Vec3d> lower, upper;      // of each triangle
-  std::vector<Index> order;             // triangles, to be sorted so that leaves are contiguous
+  std::vector<Vec3d> lower, upper;  // of each triangle
+  std::vector<Index> order;         // triangles, to be sorted so that leaves are contiguous
   Vec3d middle;
 
   void bounds(Index begin, Index end, Vec3d& low, Vec3d& high) const {
@@ -255,7 +261,8 @@ void build_trees(Surface& surface, WallMesh& mesh) {
     Vec3d low, high;
     tree.bounds(static_cast<Index>(begin), static_cast<Index>(end), low, high);
     tree.middle = 0.5 * (low + high);
-    mesh.body[static_cast<std::size_t>(body)] = {static_cast<Index>(mesh.node.size()), tree.middle, 0.5 * norm(high - low)};
+    mesh.body[static_cast<std::size_t>(body)] = {static_cast<Index>(mesh.node.size()), tree.middle,
+                                                 0.5 * norm(high - low)};
     mesh.node.push_back({});
     tree.fill(static_cast<Index>(mesh.node.size()) - 1, static_cast<Index>(begin), static_cast<Index>(end));
     begin = end;

@@ -38,36 +38,36 @@ struct EdgeSide {
 struct VertexRing {
   Index begin = 0, end = 0;
   Vec3f outward;
-  std::int32_t open = 0;     ///< on the rim of an open surface
+  std::int32_t open = 0;  ///< on the rim of an open surface
 };
 
 /// A box of the tree; leaves hold triangles [first, first + count), inner nodes have children at first and first + 1.
 struct WallNode {
-  Vec3f lower, upper;        ///< m, body coordinates relative to the body's middle, widened for rounding
+  Vec3f lower, upper;  ///< m, body coordinates relative to the body's middle, widened for rounding
   Index first = 0, count = 0;
 };
 
 /// Triangle corners in double precision, for exact distances when lists are made.
 struct TriangleCorners {
-  Vec3d a, b, c;             ///< m, case coordinates at the start
+  Vec3d a, b, c;  ///< m, case coordinates at the start
 };
 
 struct WallBody {
-  Index root = -1;           ///< node, or -1 without triangles
-  Vec3d middle;              ///< m
-  double reach = 0.0;        ///< m, from `middle` to the farthest corner
+  Index root = -1;     ///< node, or -1 without triangles
+  Vec3d middle;        ///< m
+  double reach = 0.0;  ///< m, from `middle` to the farthest corner
 };
 
 struct WallMesh {
   std::vector<TriangleFrame> frame;
   std::vector<TriangleCorners> corners;
-  std::vector<EdgeSide> edge;                      ///< 3 a triangle
-  std::vector<Vec3<std::int32_t>> vertex;          ///< of a triangle
-  std::vector<std::int32_t> smooth;                ///< 1: the triangle has no friction
-  std::vector<VertexRing> ring_of;                 ///< of a vertex
+  std::vector<EdgeSide> edge;              ///< 3 a triangle
+  std::vector<Vec3<std::int32_t>> vertex;  ///< of a triangle
+  std::vector<std::int32_t> smooth;        ///< 1: the triangle has no friction
+  std::vector<VertexRing> ring_of;         ///< of a vertex
   std::vector<Vec3f> ring;
   std::vector<WallNode> node;
-  std::vector<WallBody> body;                      ///< 0: at rest; k: bodies[k - 1]
+  std::vector<WallBody> body;  ///< 0: at rest; k: bodies[k - 1]
 };
 
 /// Two corners nearer than `weld` (m) are one vertex; triangles without area are left out. In two dimensions the

@@ -16,9 +16,9 @@ constexpr float same_side = 0.2f;               // cosine with a remembered norm
 constexpr float seam_tolerance = 1.0e-4f;       // of a radius
 
 struct Touch {
-  Vec3f n;             // world
-  float overlap;       // m
-  Vec3f centre_arm;    // m, grain centre - body centre, world
+  Vec3f n;           // world
+  float overlap;     // m
+  Vec3f centre_arm;  // m, grain centre - body centre, world
   std::int32_t body;
   bool smooth;
 };
@@ -59,7 +59,7 @@ struct WallStep {
 
   template <class R>
   struct Nearest {
-    R distance2, inside, beyond, kind;   // in the plane; offset along the edge beyond its ends
+    R distance2, inside, beyond, kind;  // in the plane; offset along the edge beyond its ends
     Vec3<R> m;
   };
 
@@ -176,7 +176,8 @@ struct WallStep {
     touch.smooth = v.mesh.smooth[row.triangle[lane]] != 0;
     if (body != 0) {
       const Vec3f lever{row.lever_x[lane], row.lever_y[lane], row.lever_z[lane]};
-      touch.centre_arm = to_world(pose, lever + apply(pose.to_body, displaced - pose.shift) + apply(pose.turned, lever));
+      touch.centre_arm =
+          to_world(pose, lever + apply(pose.to_body, displaced - pose.shift) + apply(pose.turned, lever));
     }
     return true;
   }
@@ -222,7 +223,7 @@ struct WallStep {
                             WallForce& sum) const {
     const BodyPose& pose = v.pose[touch.body];
     const float arm = real::max(own.radius - touch.overlap, 0.0f);
-    const Vec3f point = touch.centre_arm - arm * touch.n;    // from the body's centre
+    const Vec3f point = touch.centre_arm - arm * touch.n;  // from the body's centre
     const Vec3f surface = (1.0f / own.radius) * Vec3f{own.sx, own.sy, own.sz};
     ContactGeometry<float> g;
     g.n = touch.n;
@@ -237,7 +238,7 @@ struct WallStep {
     Vec3f rolling{};
     if (felt.rolling_friction > 0.0f) {
       const float inertia = (1.0f + v.inertia_factor) * own.mass * own.radius * own.radius;
-      const RollingMotion<float> motion{touch.n,        surface - pose.spin, own.radius,   inertia,
+      const RollingMotion<float> motion{touch.n,        surface - pose.spin, own.radius,  inertia,
                                         c.normal_force, v.half.before,       v.half.after};
       rolling = rolling_torque(felt.rolling_friction, c.normal_stiffness, motion, memory.rolling);
     }
@@ -315,8 +316,7 @@ void run_wall_step(const Exec& exec, const ContactLaws<Law>& laws, const WallSte
 
 template void run_wall_step(const exec::CompiledBackend&, const ContactLaws<HertzMindlin>&, const WallStepView&, Index,
                             const exec::Gate&, exec::Largest*);
-template void run_wall_step(const exec::CompiledBackend&, const ContactLaws<LinearSpringDashpot>&,
-                            const WallStepView&, Index, const exec::Gate&,
-                            exec::Largest*);
+template void run_wall_step(const exec::CompiledBackend&, const ContactLaws<LinearSpringDashpot>&, const WallStepView&,
+                            Index, const exec::Gate&, exec::Largest*);
 
 }  // namespace gdesp::dem

@@ -10,10 +10,10 @@ namespace gdesp::dem {
 
 /// A body at one moment, against where it was when the lists were made. World vectors w become body vectors R^T w.
 struct BodyPose {
-  float to_body[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};     ///< R^T now, row by row
-  float turned[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0};      ///< R^T(now) R(listed) - 1
-  Vec3f shift;                                        ///< m, centre now - centre listed
-  Vec3f velocity, spin;                               ///< m/s, rad/s
+  float to_body[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< R^T now, row by row
+  float turned[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0};   ///< R^T(now) R(listed) - 1
+  Vec3f shift;                                     ///< m, centre now - centre listed
+  Vec3f velocity, spin;                            ///< m/s, rad/s
   std::int32_t present = 1;
 };
 
@@ -26,8 +26,8 @@ struct alignas(32) WallRow {
   float height[8];
   float inside[3][8];
   float along[3][8];
-  float lever_x[8], lever_y[8], lever_z[8];   ///< m, grain - centre of the body, body axes
-  std::int32_t moving;                        ///< some triangle belongs to a body
+  float lever_x[8], lever_y[8], lever_z[8];  ///< m, grain - centre of the body, body axes
+  std::int32_t moving;                       ///< some triangle belongs to a body
 };
 inline constexpr float far_height = 1.0e30f;
 
@@ -40,9 +40,9 @@ struct alignas(32) WallGap {
 
 /// One contact of a grain with a wall, remembered.
 struct WallContact {
-  Vec3f n;               ///< unit, into the grain
-  Vec3f tangential;      ///< N, history
-  Vec3f rolling;         ///< N m, history
+  Vec3f n;           ///< unit, into the grain
+  Vec3f tangential;  ///< N, history
+  Vec3f rolling;     ///< N m, history
   std::int32_t body = 0;
 };
 inline constexpr int wall_contact_limit = 8;
@@ -70,16 +70,16 @@ struct WallStepView {
   WallMeshView mesh;
   PositionUnit unit;
   const GrainRecord* now;
-  const Vec3<std::int32_t>* start;   ///< fraction bits of grains when the lists were made
-  const Index* slot;                 ///< of each grain near walls
-  const Index* row_begin;            ///< its rows; one more element than grains
+  const Vec3<std::int32_t>* start;  ///< fraction bits of grains when the lists were made
+  const Index* slot;                ///< of each grain near walls
+  const Index* row_begin;           ///< its rows; one more element than grains
   const WallRow* rows;
   WallGap* gaps;
-  const BodyPose* pose;              ///< by body number; 0 at rest
+  const BodyPose* pose;  ///< by body number; 0 at rest
   WallHistory* history;
   WallForce* force;
-  std::int64_t* impulse;             ///< 6 a body, in impulse units
-  double impulse_unit;               ///< N s (and N m s)
+  std::int64_t* impulse;  ///< 6 a body, in impulse units
+  double impulse_unit;    ///< N s (and N m s)
   float inertia_factor;
   HalfSteps half;
 };

@@ -36,7 +36,10 @@ class Array {
   Array() = default;
   explicit Array(const Exec& exec) : exec_(exec) {}
   Array(Array&& other) noexcept { swap(other); }
-  Array& operator=(Array&& other) noexcept { swap(other); return *this; }
+  Array& operator=(Array&& other) noexcept {
+    swap(other);
+    return *this;
+  }
   Array(const Array&) = delete;
   Array& operator=(const Array&) = delete;
   ~Array() { detail::release(exec_, data_, capacity_ * sizeof(T)); }
@@ -69,7 +72,9 @@ class Array {
   /// Gives the memory back.
   void free() { Array(exec_).swap(*this); }
   /// Sets every byte.
-  void fill_bytes(int value) { if (size_) detail::fill_bytes(exec_, data_, value, size_ * sizeof(T)); }
+  void fill_bytes(int value) {
+    if (size_) detail::fill_bytes(exec_, data_, value, size_ * sizeof(T));
+  }
   void assign(const std::vector<T>& host) {
     resize_discard(host.size());
     if (size_) detail::copy_from_host(exec_, data_, host.data(), size_ * sizeof(T));

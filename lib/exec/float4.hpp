@@ -72,7 +72,8 @@ inline Float4 with_last_of(const Float4& a, const Float4& b) { return __builtin_
 /// x, y, z and 0.
 inline Float4 load3(const Vec3f& a) { return {a.x, a.y, a.z, 0.0f}; }
 inline Int4 load3(const Vec3<std::int32_t>& a) {
-  return {Int4::Vector{static_cast<std::uint32_t>(a.x), static_cast<std::uint32_t>(a.y), static_cast<std::uint32_t>(a.z), 0u}};
+  return {Int4::Vector{static_cast<std::uint32_t>(a.x), static_cast<std::uint32_t>(a.y),
+                       static_cast<std::uint32_t>(a.z), 0u}};
 }
 
 #else  // a device, or its host side
@@ -127,7 +128,9 @@ GDESP_HD inline Int4 truncate(const Float4& a) {
   for (int k = 0; k < 4; ++k) b.v[k] = static_cast<std::uint32_t>(static_cast<std::int32_t>(a.v[k]));
   return b;
 }
-GDESP_HD inline Float4 rint(const Float4& a) { return {::rintf(a.v[0]), ::rintf(a.v[1]), ::rintf(a.v[2]), ::rintf(a.v[3])}; }
+GDESP_HD inline Float4 rint(const Float4& a) {
+  return {::rintf(a.v[0]), ::rintf(a.v[1]), ::rintf(a.v[2]), ::rintf(a.v[3])};
+}
 GDESP_HD inline Float4 with_last_of(const Float4& a, const Float4& b) { return {a.v[0], a.v[1], a.v[2], b.v[3]}; }
 GDESP_HD inline Float4 load3(const Vec3f& a) { return {a.x, a.y, a.z, 0.0f}; }
 GDESP_HD inline Int4 load3(const Vec3<std::int32_t>& a) {

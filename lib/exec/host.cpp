@@ -44,8 +44,7 @@ namespace detail {
 void note_allocation(std::size_t bytes) {
   const std::size_t now = bytes_now += bytes;
   std::size_t peak = bytes_peak;
-  while (now > peak && !bytes_peak.compare_exchange_weak(peak, now)) {
-  }
+  while (now > peak && !bytes_peak.compare_exchange_weak(peak, now)) {}
 }
 void note_release(std::size_t bytes) { bytes_now -= bytes; }
 
@@ -76,9 +75,8 @@ void copy_from_host(const OpenMP& exec, void* to, const void* from, std::size_t 
   copy_to_host(exec, to, from, bytes);
 }
 void fill_bytes(const OpenMP&, void* p, int value, std::size_t bytes) {
-  for_blocks(bytes, [=](std::size_t begin, std::size_t size) {
-    std::memset(static_cast<char*>(p) + begin, value, size);
-  });
+  for_blocks(bytes,
+             [=](std::size_t begin, std::size_t size) { std::memset(static_cast<char*>(p) + begin, value, size); });
 }
 
 }  // namespace detail
@@ -89,7 +87,8 @@ int set_threads(int threads) {
   static const int given = omp_get_max_threads();  // before anybody sets it: OMP_NUM_THREADS, else all cores
   if (threads <= 0) threads = given;
   if (threads > most_threads) {
-    throw Error(ErrorKind::usage, std::to_string(threads) + " threads (--threads, OMP_NUM_THREADS): at most " + std::to_string(most_threads));
+    throw Error(ErrorKind::usage, std::to_string(threads) + " threads (--threads, OMP_NUM_THREADS): at most " +
+                                      std::to_string(most_threads));
   }
   omp_set_num_threads(threads);
   return threads;
@@ -112,7 +111,8 @@ void add_to_profile(const char* name, double seconds) {
 std::vector<ProfileRow> profile() {
   std::vector<ProfileRow> result;
   for (const auto& entry : rows()) result.push_back(entry.second);
-  std::sort(result.begin(), result.end(), [](const ProfileRow& a, const ProfileRow& b) { return a.seconds > b.seconds; });
+  std::sort(result.begin(), result.end(),
+            [](const ProfileRow& a, const ProfileRow& b) { return a.seconds > b.seconds; });
   return result;
 }
 

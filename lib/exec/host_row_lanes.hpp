@@ -24,7 +24,9 @@ inline Int8::Vector operator==(const Int8& a, const Int8& b) { return a.v == b.v
 struct Float8 {
   typedef float Vector __attribute__((vector_size(32)));
 #if defined(__AVX512VL__)
-  struct Mask { __mmask8 bits; };  // a bit a lane
+  struct Mask {
+    __mmask8 bits;
+  };  // a bit a lane
 #else
   typedef std::int32_t Mask __attribute__((vector_size(32)));
 #endif
@@ -33,9 +35,18 @@ struct Float8 {
   Float8() = default;
   Float8(Vector x) : v(x) {}
   Float8(float x) : v(x - Vector{}) {}
-  Float8& operator+=(const Float8& b) { v += b.v; return *this; }
-  Float8& operator-=(const Float8& b) { v -= b.v; return *this; }
-  Float8& operator*=(const Float8& b) { v *= b.v; return *this; }
+  Float8& operator+=(const Float8& b) {
+    v += b.v;
+    return *this;
+  }
+  Float8& operator-=(const Float8& b) {
+    v -= b.v;
+    return *this;
+  }
+  Float8& operator*=(const Float8& b) {
+    v *= b.v;
+    return *this;
+  }
 };
 
 inline Float8 operator+(const Float8& a, const Float8& b) { return a.v + b.v; }

@@ -38,7 +38,9 @@ using real::sqrt;
 struct Float16 {
   typedef float Vector __attribute__((vector_size(64)));
 #if defined(__AVX512F__)
-  struct Mask { __mmask16 bits; };  // a bit a lane: comparisons make it, choices take it
+  struct Mask {
+    __mmask16 bits;
+  };  // a bit a lane: comparisons make it, choices take it
 #else
   typedef int Mask __attribute__((vector_size(64)));
 #endif
@@ -47,8 +49,14 @@ struct Float16 {
   Float16() = default;
   Float16(Vector x) : v(x) {}
   Float16(float x) : v(x - Vector{}) {}
-  Float16& operator+=(const Float16& b) { v += b.v; return *this; }
-  Float16& operator-=(const Float16& b) { v -= b.v; return *this; }
+  Float16& operator+=(const Float16& b) {
+    v += b.v;
+    return *this;
+  }
+  Float16& operator-=(const Float16& b) {
+    v -= b.v;
+    return *this;
+  }
 };
 
 inline Float16 operator+(const Float16& a, const Float16& b) { return a.v + b.v; }
@@ -100,16 +108,16 @@ struct HostLanes {
 
   /// p[i] of the four i particles, each in its four lanes.
   static Real load_i(const float* p) {
-    return Float16(Float16::Vector{p[0], p[0], p[0], p[0], p[1], p[1], p[1], p[1], p[2], p[2], p[2], p[2], p[3],
-                                   p[3], p[3], p[3]});
+    return Float16(Float16::Vector{p[0], p[0], p[0], p[0], p[1], p[1], p[1], p[1], p[2], p[2], p[2], p[2], p[3], p[3],
+                                   p[3], p[3]});
   }
   /// p[j] of the four j particles, in every fourth lane.
   static Real load_j(const float* p) {
 #if defined(__AVX512F__)
     return Float16(reinterpret_cast<Float16::Vector>(_mm512_broadcast_f32x4(_mm_loadu_ps(p))));
 #else
-    return Float16(Float16::Vector{p[0], p[1], p[2], p[3], p[0], p[1], p[2], p[3], p[0], p[1], p[2], p[3], p[0],
-                                   p[1], p[2], p[3]});
+    return Float16(Float16::Vector{p[0], p[1], p[2], p[3], p[0], p[1], p[2], p[3], p[0], p[1], p[2], p[3], p[0], p[1],
+                                   p[2], p[3]});
 #endif
   }
   /// p[i] = sum of the four lanes of i, in the order (0 + 1) + (2 + 3).

@@ -8,7 +8,11 @@
 
 namespace gdesp::exec {
 
-struct ProfileRow { std::string name; double seconds = 0.0; long calls = 0; };
+struct ProfileRow {
+  std::string name;
+  double seconds = 0.0;
+  long calls = 0;
+};
 
 void set_profiling(bool on);
 bool profiling();

@@ -23,7 +23,9 @@ class StateWriter {
 
   /// Writes all parts: plain values, vectors of them, arrays of a back end, or classes with archive().
   template <class... Parts>
-  void operator()(Parts&... parts) { (put(parts), ...); }
+  void operator()(Parts&... parts) {
+    (put(parts), ...);
+  }
 
   /// The first `count` elements of an array whose rest means nothing.
   template <class T, class Exec>
@@ -50,7 +52,9 @@ class StateWriter {
     if (!out_) throw Error(ErrorKind::resource, "the state of the simulation cannot be written");
   }
   template <class T, class Exec>
-  void put(Array<T, Exec>& array) { prefix(array, array.size()); }
+  void put(Array<T, Exec>& array) {
+    prefix(array, array.size());
+  }
   template <class T>
   void put(std::vector<T>& values) {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -60,8 +64,10 @@ class StateWriter {
   }
   template <class T>
   void put(T& part) {
-    if constexpr (std::is_trivially_copyable_v<T>) bytes(&part, sizeof(T));
-    else part.archive(*this);
+    if constexpr (std::is_trivially_copyable_v<T>)
+      bytes(&part, sizeof(T));
+    else
+      part.archive(*this);
   }
 
   std::ostream& out_;
@@ -72,10 +78,14 @@ class StateReader {
   explicit StateReader(std::istream& in) : in_(in) {}
 
   template <class... Parts>
-  void operator()(Parts&... parts) { (get(parts), ...); }
+  void operator()(Parts&... parts) {
+    (get(parts), ...);
+  }
 
   template <class T, class Exec>
-  void prefix(Array<T, Exec>& array, std::size_t) { get(array); }
+  void prefix(Array<T, Exec>& array, std::size_t) {
+    get(array);
+  }
 
   /// Throws Error(input) when the stream does not hold this mark here.
   void mark(const char* name) {
@@ -112,8 +122,10 @@ class StateReader {
   }
   template <class T>
   void get(T& part) {
-    if constexpr (std::is_trivially_copyable_v<T>) bytes(&part, sizeof(T));
-    else part.archive(*this);
+    if constexpr (std::is_trivially_copyable_v<T>)
+      bytes(&part, sizeof(T));
+    else
+      part.archive(*this);
   }
 
   std::istream& in_;

@@ -12,7 +12,7 @@
 namespace gdesp::geometry {
 namespace {
 
-constexpr double forever = 1e5;   // s; a constant velocity is tabulated up to here
+constexpr double forever = 1e5;  // s; a constant velocity is tabulated up to here
 constexpr double columns_a_depth = 5.0;
 
 bool four_numbers(const std::string& line, double (&v)[4]) {
@@ -38,12 +38,14 @@ PrescribedMotion read_motion(const std::string& path) {
     if (line.find_first_not_of(" \t\r") == std::string::npos || line.front() == '#') continue;
     double v[4];
     if (!four_numbers(line, v)) {
-      if (motion.time.empty() && number == 1) continue;   // a header
-      throw Error(ErrorKind::input, path + ":" + std::to_string(number) + ": expected t,dx,dy,dz (s, m), found \"" + line.substr(0, 60) + "\"");
+      if (motion.time.empty() && number == 1) continue;  // a header
+      throw Error(ErrorKind::input, path + ":" + std::to_string(number) + ": expected t,dx,dy,dz (s, m), found \"" +
+                                        line.substr(0, 60) + "\"");
     }
     if (!motion.time.empty() && v[0] <= motion.time.back()) {
-      throw Error(ErrorKind::input, path + ":" + std::to_string(number) + ": time " + std::to_string(v[0]) + " s does not follow " +
-                                        std::to_string(motion.time.back()) + " s; times must increase");
+      throw Error(ErrorKind::input, path + ":" + std::to_string(number) + ": time " + std::to_string(v[0]) +
+                                        " s does not follow " + std::to_string(motion.time.back()) +
+                                        " s; times must increase");
     }
     motion.time.push_back(v[0]);
     motion.displacement.push_back({v[1], v[2], v[3]});
@@ -75,20 +77,25 @@ Body moving_body(const MovingBody& body, double gravity) {
   out.kind = BodyKind::prescribed;
   const Wave& wave = body.wave;
   if (wave.kind == "solitary") {
-    out.motion = solitary_wave_motion(wave.height, wave.depth, gravity, wave.direction * (1.0 / norm(wave.direction)), body.start);
+    out.motion = solitary_wave_motion(wave.height, wave.depth, gravity, wave.direction * (1.0 / norm(wave.direction)),
+                                      body.start);
   } else {
-    out.motion = body.motion_csv.empty() ? constant_motion(body.velocity, body.start, body.stop) : read_motion(body.motion_csv);
+    out.motion =
+        body.motion_csv.empty() ? constant_motion(body.velocity, body.start, body.stop) : read_motion(body.motion_csv);
   }
   out.motion.remove_at = body.remove_at;
   return out;
 }
 
-FarLakeShape far_lake_behind(const MovingBody& body, const Box& box, const FluidTable& water, double dp, int dimensions) {
+FarLakeShape far_lake_behind(const MovingBody& body, const Box& box, const FluidTable& water, double dp,
+                             int dimensions) {
   const FarLakeKeys& keys = body.far_lake;
   FarLakeShape lake;
   lake.length = keys.length;
   lake.depth = keys.depth;
-  lake.columns = keys.columns > 0 ? static_cast<int>(keys.columns) : std::max(8, static_cast<int>(std::ceil(columns_a_depth * keys.length / keys.depth)));
+  lake.columns = keys.columns > 0
+                     ? static_cast<int>(keys.columns)
+                     : std::max(8, static_cast<int>(std::ceil(columns_a_depth * keys.length / keys.depth)));
   lake.side = keys.side == "x+" ? 1.0 : -1.0;
   lake.wall = keys.side == "x+" ? box.lower.x : box.upper.x;
   Box layer = empty_box();  // of the water that touches the wall
@@ -101,17 +108,20 @@ FarLakeShape far_lake_behind(const MovingBody& body, const Box& box, const Fluid
   }
   const std::string where = "piston \"" + body.name + "\": far_lake: ";
   if (particles == 0.0)
-    throw Error(ErrorKind::input, where + "no water touches the face on the other side of it (far_lake.side = \"" + keys.side + "\")");
+    throw Error(ErrorKind::input,
+                where + "no water touches the face on the other side of it (far_lake.side = \"" + keys.side + "\")");
   const double depth = layer.upper.z - layer.lower.z + dp;
   if (std::abs(depth - lake.depth) > 1.01 * dp)
-    throw Error(ErrorKind::input, where + "depth = " + std::to_string(lake.depth) + " m, but the water at the piston is " + std::to_string(depth) + " m deep");
+    throw Error(ErrorKind::input, where + "depth = " + std::to_string(lake.depth) +
+                                      " m, but the water at the piston is " + std::to_string(depth) + " m deep");
   lake.level = layer.lower.z - 0.5 * dp + lake.depth;
   if (dimensions == 2) return lake;
   lake.width = layer.upper.y - layer.lower.y + dp;
   const double area = particles * dp * dp;
   if (std::abs(area - lake.width * depth) > 0.05 * area)
-    throw Error(ErrorKind::input, where + "the water at the piston is no rectangle: " + std::to_string(lake.width) + " m wide, " + std::to_string(depth) +
-                                      " m deep, but an area of " + std::to_string(area) + " m2");
+    throw Error(ErrorKind::input, where + "the water at the piston is no rectangle: " + std::to_string(lake.width) +
+                                      " m wide, " + std::to_string(depth) + " m deep, but an area of " +
+                                      std::to_string(area) + " m2");
   return lake;
 }
 

@@ -20,7 +20,8 @@ PrescribedMotion constant_motion(const Vec3d& velocity, double start, double sto
 Body moving_body(const MovingBody& body, double gravity);
 /// What lies behind a piston with far_lake, its box and the particles' water (case coordinates) given: width and bed are those of the water
 /// that touches its face. Throws Error(input) when none does, or when its depth is another, or it is no rectangle.
-FarLakeShape far_lake_behind(const MovingBody& body, const Box& box, const FluidTable& water, double dp, int dimensions);
+FarLakeShape far_lake_behind(const MovingBody& body, const Box& box, const FluidTable& water, double dp,
+                             int dimensions);
 Body prescribed_slide(const Slide& slide);
 
 /// What holds a free body: until `release_at` (s), and the motions that it cannot make (x, y, z, rotation).

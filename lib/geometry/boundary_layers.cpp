@@ -19,7 +19,8 @@ void add(BoundaryTable& out, const Vec3d& p, const Vec3d& normal, double depth, 
 }
 
 /// Coordinates along one axis of a tank: layers before its lower face, points fitted between, layers after its upper face.
-std::vector<double> tank_ticks(int axis, const WallPart& tank, const Lattice& lattice, bool low_closed, bool high_closed) {
+std::vector<double> tank_ticks(int axis, const WallPart& tank, const Lattice& lattice, bool low_closed,
+                               bool high_closed) {
   std::vector<double> ticks;
   const double lo = tank.tank.lower[axis], hi = tank.tank.upper[axis], dp = lattice.dp;
   if (lattice.dimensions == 2 && axis == 1) return {0.0};
@@ -42,17 +43,19 @@ bool inside_other_tank(const SceneParts& parts, const WallPart* own, const Vec3d
 
 void add_one_tank(const WallPart& tank, const SceneParts& parts, const Lattice& lattice, BoundaryTable& out) {
   std::vector<double> ticks[3];
-  for (int a = 0; a < 3; ++a) ticks[a] = tank_ticks(a, tank, lattice, !is_open(tank, tank_face[2 * a]), !is_open(tank, tank_face[2 * a + 1]));
+  for (int a = 0; a < 3; ++a)
+    ticks[a] = tank_ticks(a, tank, lattice, !is_open(tank, tank_face[2 * a]), !is_open(tank, tank_face[2 * a + 1]));
   const Vec3d lo = tank.tank.lower, hi = tank.tank.upper;
   for (const double x : ticks[0]) {
     for (const double y : ticks[1]) {
       for (const double z : ticks[2]) {
         const Vec3d p{x, y, z};
         Vec3d inward;
-        bool no_slip = false;   // what stands behind planes of symmetry alone lets the fluid slip
+        bool no_slip = false;  // what stands behind planes of symmetry alone lets the fluid slip
         for (int a = 0; a < 3; ++a) {
           inward[a] = p[a] < lo[a] ? lo[a] - p[a] : (p[a] > hi[a] ? hi[a] - p[a] : 0.0);
-          no_slip = no_slip || (tank.no_slip && inward[a] != 0.0 && !is_symmetry(tank, tank_face[2 * a + (inward[a] > 0.0 ? 0 : 1)]));
+          no_slip = no_slip || (tank.no_slip && inward[a] != 0.0 &&
+                                !is_symmetry(tank, tank_face[2 * a + (inward[a] > 0.0 ? 0 : 1)]));
         }
         const double depth = norm(inward);
         if (depth == 0.0 || inside_other_tank(parts, &tank, p)) continue;
@@ -74,7 +77,8 @@ bool in_tank_wall(const SceneParts& parts, const Vec3d& p, double dp) {
 }
 
 bool belongs_to_tank(const BandPoint& b, const SceneParts& parts, const Lattice& lattice) {
-  const bool face = b.material >= 2 && parts.walls[static_cast<std::size_t>(b.material) - 2].kind == WallPart::Kind::tank;
+  const bool face =
+      b.material >= 2 && parts.walls[static_cast<std::size_t>(b.material) - 2].kind == WallPart::Kind::tank;
   return face || in_tank_wall(parts, lattice.point(b.at), lattice.dp);
 }
 
@@ -82,7 +86,8 @@ bool is_no_slip(const SceneParts& parts, std::int32_t material) {
   return material >= 2 ? parts.walls[static_cast<std::size_t>(material) - 2].no_slip : parts.terrain_no_slip;
 }
 
-void add_box_body(const SolidPart& body, std::int32_t number, const Lattice& lattice, const bool (&endless)[3], BoundaryTable& out) {
+void add_box_body(const SolidPart& body, std::int32_t number, const Lattice& lattice, const bool (&endless)[3],
+                  BoundaryTable& out) {
   const Box& box = *body.box;
   int n[3];
   Vec3d step;
@@ -124,21 +129,28 @@ void add_tank_layers(const SceneParts& parts, const Lattice& lattice, BoundaryTa
   }
 }
 
-void add_band_layers(const std::vector<BandPoint>& band, const SceneParts& parts, const Lattice& lattice, BoundaryTable& out) {
+void add_band_layers(const std::vector<BandPoint>& band, const SceneParts& parts, const Lattice& lattice,
+                     BoundaryTable& out) {
   for (const auto& b : band) {
-    if (b.distance > 0.0f || -b.distance > boundary_layer_count * lattice.dp || belongs_to_tank(b, parts, lattice)) continue;
-    add(out, lattice.place(b.at), static_cast<Vec3d>(b.normal), placed_depth(b, lattice), 0, is_no_slip(parts, b.material));
+    if (b.distance > 0.0f || -b.distance > boundary_layer_count * lattice.dp || belongs_to_tank(b, parts, lattice))
+      continue;
+    add(out, lattice.place(b.at), static_cast<Vec3d>(b.normal), placed_depth(b, lattice), 0,
+        is_no_slip(parts, b.material));
   }
 }
 
-void add_fitted_layers(const std::vector<BandPoint>& band, const SceneParts& parts, LayerRequest request, BoundaryTable& out) {
+void add_fitted_layers(const std::vector<BandPoint>& band, const SceneParts& parts, LayerRequest request,
+                       BoundaryTable& out) {
   std::vector<BandPoint> own;
-  std::copy_if(band.begin(), band.end(), std::back_inserter(own), [&](const BandPoint& b) { return !belongs_to_tank(b, parts, request.lattice); });
+  std::copy_if(band.begin(), band.end(), std::back_inserter(own),
+               [&](const BandPoint& b) { return !belongs_to_tank(b, parts, request.lattice); });
   request.others = out.position;
-  for (const auto& p : fit_layers(own, request)) add(out, p.position, p.normal, p.depth, 0, is_no_slip(parts, p.material));
+  for (const auto& p : fit_layers(own, request))
+    add(out, p.position, p.normal, p.depth, 0, is_no_slip(parts, p.material));
 }
 
-void add_body_layers(const SolidPart& body, std::int32_t number, const Lattice& lattice, const bool (&endless)[3], BoundaryTable& out) {
+void add_body_layers(const SolidPart& body, std::int32_t number, const Lattice& lattice, const bool (&endless)[3],
+                     BoundaryTable& out) {
   if (body.box) return add_box_body(body, number, lattice, endless, out);
   Box box = bounds(body.mesh);
   const LatticeColumns columns = lattice_columns(lattice, box);
@@ -159,11 +171,13 @@ void add_body_layers(const SolidPart& body, std::int32_t number, const Lattice& 
     add(out, lattice.place(b.at), static_cast<Vec3d>(b.normal), placed_depth(b, lattice), number, body.no_slip);
     ++added;
   }
-  if (added == 0) throw Error(ErrorKind::input, body.name + " is thinner than resolution.dp = " + std::to_string(lattice.dp) + " m: no particle fits; refine dp");
+  if (added == 0)
+    throw Error(ErrorKind::input, body.name + " is thinner than resolution.dp = " + std::to_string(lattice.dp) +
+                                      " m: no particle fits; refine dp");
 }
 
 TriangleMesh tank_faces(const WallPart& tank) {
-  TriangleMesh box = box_mesh(tank.tank), out;   // box_mesh lists its faces in the same order, two triangles each
+  TriangleMesh box = box_mesh(tank.tank), out;  // box_mesh lists its faces in the same order, two triangles each
   flip(box);
   out.vertex = box.vertex;
   for (int f = 0; f < 6; ++f) {

@@ -23,7 +23,8 @@ namespace {
 /// Names stages as they begin and keeps their times.
 class Stages {
  public:
-  Stages(BuildReport& report, const std::function<void(const std::string&)>& on_stage) : report_(report), on_stage_(on_stage) {}
+  Stages(BuildReport& report, const std::function<void(const std::string&)>& on_stage)
+      : report_(report), on_stage_(on_stage) {}
   ~Stages() { close(); }
   void begin(const std::string& name) {
     close();
@@ -34,7 +35,9 @@ class Stages {
 
  private:
   void close() {
-    if (!name_.empty()) report_.seconds.push_back({name_, std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count()});
+    if (!name_.empty())
+      report_.seconds.push_back(
+          {name_, std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count()});
     name_.clear();
   }
   BuildReport& report_;
@@ -55,13 +58,18 @@ FillSpace fill_space(const Layout& layout, ColumnIntervals& walls) {
 }
 
 /// Unset: everywhere.
-std::optional<WaterReach> wanted_walls(const Layout& layout, const FillSpace& space, const ColumnIntervals& walls, const std::vector<Vec3d>& water, BuildReport& report) {
-  if (layout.scene.wall_particles == "all" || !layout.scene.periodic.empty()) return std::nullopt;   // what leaves at one side comes in at the other
-  const double run_up = layout.scene.run_up > 0.0 ? layout.scene.run_up : default_run_up(layout.scene, layout.parts, water);
+std::optional<WaterReach> wanted_walls(const Layout& layout, const FillSpace& space, const ColumnIntervals& walls,
+                                       const std::vector<Vec3d>& water, BuildReport& report) {
+  if (layout.scene.wall_particles == "all" || !layout.scene.periodic.empty())
+    return std::nullopt;  // what leaves at one side comes in at the other
+  const double run_up =
+      layout.scene.run_up > 0.0 ? layout.scene.run_up : default_run_up(layout.scene, layout.parts, water);
   std::optional<WaterReach> reach = reach_of_water(space, walls, water, run_up);
   if (!reach || reach->share > 0.999) return std::nullopt;
   char text[200];
-  std::snprintf(text, sizeof text, "wall particles where water can climb to, up to %.6g m (run-up of %.4g m above the water): %.3g %% of the ground; domain.run_up, domain.wall_particles",
+  std::snprintf(text, sizeof text,
+                "wall particles where water can climb to, up to %.6g m (run-up of %.4g m above the water): %.3g %% of "
+                "the ground; domain.run_up, domain.wall_particles",
                 reach->head + layout.offset.z, run_up, 100.0 * reach->share);
   report.notes.done.push_back(text);
   return reach;
@@ -70,12 +78,13 @@ std::optional<WaterReach> wanted_walls(const Layout& layout, const FillSpace& sp
 void keep_reachable(std::vector<BandPoint>& band, const FillSpace& space, const WaterReach& reach) {
   std::erase_if(band, [&](const BandPoint& b) {
     const int i = b.at.x - space.columns.i0, j = b.at.y - space.columns.j0;
-    return i >= 0 && j >= 0 && i < space.columns.grid.nx && j < space.columns.grid.ny && !reach.column[space.columns.grid.index(i, j)];
+    return i >= 0 && j >= 0 && i < space.columns.grid.nx && j < space.columns.grid.ny &&
+           !reach.column[space.columns.grid.index(i, j)];
   });
 }
 
-std::vector<BandPoint> wall_band(const Layout& layout, const WallSurfaces& surfaces, const FillSpace& space, const ColumnIntervals& walls, double half_width,
-                                 const std::string& vdb_path) {
+std::vector<BandPoint> wall_band(const Layout& layout, const WallSurfaces& surfaces, const FillSpace& space,
+                                 const ColumnIntervals& walls, double half_width, const std::string& vdb_path) {
   BandRequest request;
   request.lattice = layout.lattice;
   request.columns = space.columns;
@@ -116,7 +125,8 @@ void set_start_velocity(const Layout& layout, Case& out) {
     for (std::size_t i = 0; i < out.fluid.position.size(); ++i) {
       const double v = formula(out.fluid.position[i] + layout.offset);
       if (!std::isfinite(v))
-        throw Error(ErrorKind::input, "fluid.velocity_" + std::string(1, "xyz"[a]) + " = \"" + *text[a] + "\" has no finite value everywhere in the water");
+        throw Error(ErrorKind::input, "fluid.velocity_" + std::string(1, "xyz"[a]) + " = \"" + *text[a] +
+                                          "\" has no finite value everywhere in the water");
       out.fluid.velocity[i][a] = static_cast<float>(v);
     }
   }
@@ -127,13 +137,16 @@ void say_of_fill(const Layout& layout, const FillSpace& space, std::size_t k, co
   const FluidFill& asked = layout.scene.fluid.fill[k];
   char text[300];
   if (asked.kind == "level" && !asked.seed && asked.polygon.empty() && !layout.parts.terrain.empty()) {
-    std::snprintf(text, sizeof text, "fluid.fill.%zu: without seed or polygon the water is that over the lowest ground (x = %.10g m, y = %.10g m)", k,
-                  fill.lowest_at.x + layout.offset.x, fill.lowest_at.y + layout.offset.y);
+    std::snprintf(
+        text, sizeof text,
+        "fluid.fill.%zu: without seed or polygon the water is that over the lowest ground (x = %.10g m, y = %.10g m)",
+        k, fill.lowest_at.x + layout.offset.x, fill.lowest_at.y + layout.offset.y);
     notes.done.push_back(text);
   }
   if (fill.open_edge > 0.0) {
     std::snprintf(text, sizeof text,
-                  "fluid.fill.%zu: along %.4g m no wall holds the water (edge of the polygon, the domain or the terrain; e.g. at x = %.10g m, "
+                  "fluid.fill.%zu: along %.4g m no wall holds the water (edge of the polygon, the domain or the "
+                  "terrain; e.g. at x = %.10g m, "
                   "y = %.10g m): it will run out there",
                   k, fill.open_edge, fill.open_edge_at.x + layout.offset.x, fill.open_edge_at.y + layout.offset.y);
     notes.warnings.push_back(text + level_hint(space, fill.level));
@@ -144,7 +157,9 @@ void fill_fluid(const Layout& layout, const FillSpace& space, Case& out, BuildRe
   double level = -1e300;
   for (std::size_t k = 0; k < layout.scene.fluid.fill.size(); ++k) {
     FillReport fill;
-    add_fill(out.fluid.position, fill_water(layout.scene.fluid.fill[k], layout.parts.fluid[k], space, layout.parts, "fluid.fill." + std::to_string(k), fill),
+    add_fill(out.fluid.position,
+             fill_water(layout.scene.fluid.fill[k], layout.parts.fluid[k], space, layout.parts,
+                        "fluid.fill." + std::to_string(k), fill),
              layout.lattice.dp);
     level = std::max(level, fill.level);
     say_of_fill(layout, space, k, fill, report.notes);
@@ -153,23 +168,29 @@ void fill_fluid(const Layout& layout, const FillSpace& space, Case& out, BuildRe
   out.still_water_level = out.fluid.position.empty() ? layout.domain.lower.z : level;
 }
 
-void warn_of_thin_walls(const Layout& layout, const FillSpace& space, const ColumnIntervals& walls, const std::vector<Vec3d>& water, BuildReport& report) {
+void warn_of_thin_walls(const Layout& layout, const FillSpace& space, const ColumnIntervals& walls,
+                        const std::vector<Vec3d>& water, BuildReport& report) {
   const std::optional<ThinWall> thin = thinnest_wall(space, walls, layout.parts, water);
   if (!thin) return;
   const double dp = layout.lattice.dp;
   char text[400];
   std::snprintf(text, sizeof text,
-                "a wall between water and open space is only %.3g m thick (%.2g dp; about %.3g m of such walls, the thinnest found at x = %.8g m, y = %.8g m, "
-                "z = %.6g m): water sees through walls thinner than %g dp and may not stay still; resolution.dp = %.3g m or finer holds it",
-                thin->thickness, thin->thickness / dp, static_cast<double>(thin->places) * dp, thin->at.x + layout.offset.x, thin->at.y + layout.offset.y,
-                thin->at.z + layout.offset.z, least_wall_spacings, thin->thickness / least_wall_spacings);
+                "a wall between water and open space is only %.3g m thick (%.2g dp; about %.3g m of such walls, the "
+                "thinnest found at x = %.8g m, y = %.8g m, "
+                "z = %.6g m): water sees through walls thinner than %g dp and may not stay still; resolution.dp = %.3g "
+                "m or finer holds it",
+                thin->thickness, thin->thickness / dp, static_cast<double>(thin->places) * dp,
+                thin->at.x + layout.offset.x, thin->at.y + layout.offset.y, thin->at.z + layout.offset.z,
+                least_wall_spacings, thin->thickness / least_wall_spacings);
   report.notes.warnings.push_back(text);
 }
 
 /// The lattice column nearest to p, or (i, j) beside it; the nearest one where there are no more.
 std::size_t column_of(const FillSpace& space, const Vec3d& p, int i, int j) {
   const ColumnGrid& grid = space.columns.grid;
-  const auto along = [&](double x, double x0, int n, int more) { return std::clamp(static_cast<int>(std::lround((x - x0) / grid.spacing)) + more, 0, n - 1); };
+  const auto along = [&](double x, double x0, int n, int more) {
+    return std::clamp(static_cast<int>(std::lround((x - x0) / grid.spacing)) + more, 0, n - 1);
+  };
   return grid.index(along(p.x, grid.x0, grid.nx, i), along(p.y, grid.y0, grid.ny, j));
 }
 
@@ -185,7 +206,8 @@ std::vector<double> column_tops(const FillSpace& space, const std::vector<Vec3d>
 
 /// Hydrostatic pressure (Pa) of water that has left its lattice column, under the highest water there was in the column where it is now, or
 /// beside it.
-void set_start_pressure(const Layout& layout, const FillSpace& space, const std::vector<double>& top, FluidTable& fluid) {
+void set_start_pressure(const Layout& layout, const FillSpace& space, const std::vector<double>& top,
+                        FluidTable& fluid) {
   const double half = 0.5 * layout.lattice.dp, weight = -layout.scene.gravity.z * layout.scene.fluid.density;
   for (const Vec3d& p : fluid.position) {
     double level = top[column_of(space, p, 0, 0)];
@@ -204,7 +226,8 @@ void add_body(const Layout& layout, const SolidPart& part, Body body, Case& out)
   bool endless[3];
   for (int a = 0; a < 3; ++a) {
     const auto& periodic = layout.scene.periodic;
-    const bool spans = part.box && part.box->lower[a] <= layout.domain.lower[a] && part.box->upper[a] >= layout.domain.upper[a];
+    const bool spans =
+        part.box && part.box->lower[a] <= layout.domain.lower[a] && part.box->upper[a] >= layout.domain.upper[a];
     endless[a] = spans && std::find(periodic.begin(), periodic.end(), name[a]) != periodic.end();
   }
   add_body_layers(part, number, layout.lattice, endless, out.boundary);
@@ -242,8 +265,9 @@ SlideReport add_solid_slide(const Layout& layout, std::size_t k, Case& out, Note
   const double whole = signed_volume(part.mesh) / (layout.scene.dimensions == 2 ? extent(bounds(part.mesh)).y : 1.0);
   report.mass = slide.density * whole;
   check_room(layout, k, report.volume, whole, notes);
-  Body body = slide.kind == "prescribed" ? prescribed_slide(slide)
-                                         : free_body(slide.name, part, slide.density, slide.velocity, layout.scene.dimensions);
+  Body body = slide.kind == "prescribed"
+                  ? prescribed_slide(slide)
+                  : free_body(slide.name, part, slide.density, slide.velocity, layout.scene.dimensions);
   if (slide.kind == "rigid") hold(body, slide.release_at, slide.fixed);
   add_body(layout, part, std::move(body), out);
   return report;
@@ -254,7 +278,8 @@ void add_bodies_and_slides(const Layout& layout, Case& out, BuildReport& report,
     const SolidPart& part = layout.parts.moving[k];
     Body body = moving_body(layout.scene.moving[k], norm(layout.scene.gravity));
     if (body.kind == BodyKind::far_lake)
-      body.far_lake = far_lake_behind(layout.scene.moving[k], *part.box, out.fluid, layout.lattice.dp, layout.scene.dimensions);
+      body.far_lake =
+          far_lake_behind(layout.scene.moving[k], *part.box, out.fluid, layout.lattice.dp, layout.scene.dimensions);
     add_body(layout, part, std::move(body), out);
   }
   for (std::size_t k = 0; k < layout.parts.slides.size(); ++k) {
@@ -309,14 +334,16 @@ Case build_case(const Scene& scene, BuildReport& report, const BuildOptions& opt
   const WallSurfaces surfaces = reach ? within_reach(layout.walls, *reach, space) : layout.walls;
   const bool fitted = scene.numerics.wall_layers != "lattice";
   const bool everywhere = scene.numerics.wall_layers == "fitted" && scene.dimensions == 2;
-  std::vector<BandPoint> band = wall_band(layout, surfaces, space, walls, fitted ? fitted_band : boundary_layer_count, options.vdb_path);
+  std::vector<BandPoint> band =
+      wall_band(layout, surfaces, space, walls, fitted ? fitted_band : boundary_layer_count, options.vdb_path);
   if (reach) keep_reachable(band, space, *reach);
   report.band_voxels = band.size();
   add_tank_layers(layout.parts, layout.lattice, out.boundary);
   const std::size_t first = out.boundary.position.size();
   if (fitted) {
     LayerRequest request{&surfaces.mesh, layout.lattice, layout.domain, {}, {}, 0.0};
-    if (!everywhere) request.wet = out.fluid.position, request.wet_reach = (2.0 * scene.numerics.smoothing_ratio + 1.5) * scene.dp;
+    if (!everywhere)
+      request.wet = out.fluid.position, request.wet_reach = (2.0 * scene.numerics.smoothing_ratio + 1.5) * scene.dp;
     add_fitted_layers(band, layout.parts, std::move(request), out.boundary);
   } else {
     add_band_layers(band, layout.parts, layout.lattice, out.boundary);
@@ -328,7 +355,8 @@ Case build_case(const Scene& scene, BuildReport& report, const BuildOptions& opt
   mark_symmetry_planes(layout.parts, 1.0e-4 * scene.dp, out.walls);
   const std::vector<double> top = column_tops(space, out.fluid.position);
   const bool moves = everywhere && first < last;
-  if (moves) relax_water(out.fluid.position, out.boundary, first, last, space, scene.numerics.smoothing_ratio * scene.dp);
+  if (moves)
+    relax_water(out.fluid.position, out.boundary, first, last, space, scene.numerics.smoothing_ratio * scene.dp);
   thin_to_pores(out.fluid.position, porous_regions(layout, space), space);
   if (moves || !layout.lattice.row_shift.empty()) set_start_pressure(layout, space, top, out.fluid);
   set_start_velocity(layout, out);

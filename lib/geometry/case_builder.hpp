@@ -18,12 +18,12 @@ namespace gdesp::geometry {
 struct SlideReport {
   std::string name, kind;
   std::size_t grains = 0;
-  double volume = 0.0;              ///< m3, of the body above the terrain
-  double porosity = 0.0;            ///< reached (granular)
-  double largest_overlap = 0.0;     ///< share of the diameter (granular)
-  double mass = 0.0;                ///< kg
-  double seconds = 0.0;             ///< of packing
-  std::optional<SettledBed> settled;   ///< granular, relaxation "gravity"
+  double volume = 0.0;                ///< m3, of the body above the terrain
+  double porosity = 0.0;              ///< reached (granular)
+  double largest_overlap = 0.0;       ///< share of the diameter (granular)
+  double mass = 0.0;                  ///< kg
+  double seconds = 0.0;               ///< of packing
+  std::optional<SettledBed> settled;  ///< granular, relaxation "gravity"
 };
 
 /// What was built, in numbers and words.
@@ -32,17 +32,17 @@ struct BuildReport {
   std::vector<FillReport> fills;
   std::vector<SlideReport> slides;
   std::size_t band_voxels = 0;
-  std::vector<std::pair<std::string, double>> seconds;   ///< per stage
+  std::vector<std::pair<std::string, double>> seconds;  ///< per stage
 };
 
 /// `counts_only`: grains are spread over their slide, as many as were asked for, but not moved apart.
 enum class BuildScope { everything, counts_only };
 
 struct BuildOptions {
-  std::string vdb_path = {};                                    ///< where boundary.vdb goes; empty: not written
-  std::function<void(const std::string&)> on_stage = {};        ///< called with the name of each stage as it begins
+  std::string vdb_path = {};                              ///< where boundary.vdb goes; empty: not written
+  std::function<void(const std::string&)> on_stage = {};  ///< called with the name of each stage as it begins
   BuildScope scope = BuildScope::everything;
-  GrainSettler settler = {};                                    ///< for slides with relaxation "gravity"
+  GrainSettler settler = {};  ///< for slides with relaxation "gravity"
 };
 
 /// Builds the case. Throws Error(input), and what the settler throws.
@@ -51,11 +51,11 @@ Case build_case(const Scene& scene, BuildReport& report, const BuildOptions& opt
 /// The part of build_case that needs no particles: parts in case coordinates, lattice, domain.
 struct Layout {
   SceneParts parts;
-  Scene scene;                      ///< in case coordinates
+  Scene scene;  ///< in case coordinates
   Vec3d offset;
   Lattice lattice;
-  Box domain;                       ///< case coordinates
-  WallSurfaces walls;               ///< exposed surface of everything at rest
+  Box domain;          ///< case coordinates
+  WallSurfaces walls;  ///< exposed surface of everything at rest
 };
 Layout lay_out(const Scene& scene, Notes& notes);
 

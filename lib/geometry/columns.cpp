@@ -8,7 +8,9 @@
 namespace gdesp::geometry {
 namespace {
 
-struct FixedPoint { std::int64_t x, y; };
+struct FixedPoint {
+  std::int64_t x, y;
+};
 
 /// Horizontal coordinates as integers, small enough that a determinant fits 64 bits.
 class FixedGrid {
@@ -20,7 +22,9 @@ class FixedGrid {
     const double size = std::max({box.upper.x - x0_, box.upper.y - y0_, x1 - x0_, y1 - y0_, 1e-300});
     scale_ = std::ldexp(1.0, 29) / size;
   }
-  FixedPoint operator()(double x, double y) const { return {std::llround((x - x0_) * scale_), std::llround((y - y0_) * scale_)}; }
+  FixedPoint operator()(double x, double y) const {
+    return {std::llround((x - x0_) * scale_), std::llround((y - y0_) * scale_)};
+  }
 
  private:
   double x0_, y0_, scale_;
@@ -35,9 +39,15 @@ int side(const FixedPoint& a, const FixedPoint& b, const FixedPoint& p) {
   return ux > 0 ? 1 : (ux < 0 ? -1 : 0);
 }
 
-struct Hit { std::size_t column; Crossing crossing; };
+struct Hit {
+  std::size_t column;
+  Crossing crossing;
+};
 
-struct Corner { FixedPoint at; double z; };
+struct Corner {
+  FixedPoint at;
+  double z;
+};
 
 double height_at(const Corner (&c)[3], const FixedPoint& p, std::int64_t area) {
   const auto weight = [&](const Corner& a, const Corner& b) {
@@ -57,14 +67,15 @@ std::pair<int, int> column_range(double low, double high, double start, double s
 void cross_triangle(const Corner (&c)[3], const ColumnGrid& grid, const std::vector<FixedPoint>& xs,
                     const std::vector<FixedPoint>& ys, std::pair<int, int> is, std::pair<int, int> js,
                     std::int32_t triangle, std::vector<Hit>& hits) {
-  const std::int64_t area = (c[1].at.x - c[0].at.x) * (c[2].at.y - c[0].at.y) -
-                            (c[1].at.y - c[0].at.y) * (c[2].at.x - c[0].at.x);
+  const std::int64_t area =
+      (c[1].at.x - c[0].at.x) * (c[2].at.y - c[0].at.y) - (c[1].at.y - c[0].at.y) * (c[2].at.x - c[0].at.x);
   if (area == 0) return;
   const int up = area > 0 ? 1 : -1;
   for (int j = js.first; j <= js.second; ++j) {
     for (int i = is.first; i <= is.second; ++i) {
       const FixedPoint p{xs[i].x, ys[j].y};
-      if (side(c[0].at, c[1].at, p) != up || side(c[1].at, c[2].at, p) != up || side(c[2].at, c[0].at, p) != up) continue;
+      if (side(c[0].at, c[1].at, p) != up || side(c[1].at, c[2].at, p) != up || side(c[2].at, c[0].at, p) != up)
+        continue;
       hits.push_back({grid.index(i, j), {height_at(c, p, area), triangle, static_cast<std::int8_t>(-up)}});
     }
   }
@@ -80,9 +91,10 @@ Crossings sort_by_column(const std::vector<Hit>& hits, std::size_t columns) {
   for (const auto& h : hits) out.hit[next[h.column]++] = h.crossing;
   for (std::size_t c = 0; c < columns; ++c) {
     if (out.first[c + 1] - out.first[c] < 2) continue;
-    std::sort(out.hit.begin() + out.first[c], out.hit.begin() + out.first[c + 1], [](const Crossing& a, const Crossing& b) {
-      return a.z != b.z ? a.z < b.z : (a.sign != b.sign ? a.sign > b.sign : a.triangle < b.triangle);
-    });
+    std::sort(out.hit.begin() + out.first[c], out.hit.begin() + out.first[c + 1],
+              [](const Crossing& a, const Crossing& b) {
+                return a.z != b.z ? a.z < b.z : (a.sign != b.sign ? a.sign > b.sign : a.triangle < b.triangle);
+              });
   }
   return out;
 }
@@ -141,7 +153,9 @@ std::vector<double> sheet_heights(const TriangleMesh& mesh, const ColumnGrid& gr
     height[c] = crossings.hit[b - 1].z;
     if (!(crossings.hit[b - 1].z - crossings.hit[a].z > tolerance)) continue;
     ++folds;
-    if (where) *where = {grid.x(static_cast<int>(c % static_cast<std::size_t>(grid.nx))), grid.y(static_cast<int>(c / static_cast<std::size_t>(grid.nx))), height[c]};
+    if (where)
+      *where = {grid.x(static_cast<int>(c % static_cast<std::size_t>(grid.nx))),
+                grid.y(static_cast<int>(c / static_cast<std::size_t>(grid.nx))), height[c]};
   }
   if (folded) *folded = folds;
   return height;

@@ -26,7 +26,11 @@ struct ColumnGrid {
 };
 
 /// A surface point on a column. `sign` is +1 where an upward ray enters the solid, -1 where it leaves.
-struct Crossing { double z; std::int32_t triangle; std::int8_t sign; };
+struct Crossing {
+  double z;
+  std::int32_t triangle;
+  std::int8_t sign;
+};
 
 /// Crossings of all columns, sorted upward within each: those of column c are [first[c], first[c + 1]).
 struct Crossings {
@@ -34,7 +38,9 @@ struct Crossings {
   std::vector<Crossing> hit;
 };
 
-struct Interval { double lower, upper; };  ///< m
+struct Interval {
+  double lower, upper;
+};  ///< m
 
 /// Sorted, disjoint intervals of each column.
 struct ColumnIntervals {

@@ -30,14 +30,16 @@ void add_box(FileReport& r, const Box& b) {
 /// The power of ten that all coordinates of an axis are multiples of, when that is coarse against the mesh's edges: the mark of a
 /// file written with too few digits.
 void find_rounding(FileReport& r, const TriangleMesh& mesh) {
-  if (mesh.vertex.size() < 100) return;   // a few corners on round numbers are drawn, not measured
+  if (mesh.vertex.size() < 100) return;  // a few corners on round numbers are drawn, not measured
   const double edge = std::sqrt(surface_area(mesh) / std::max<std::size_t>(1, mesh.triangle.size()));
   const Vec3d size = extent(bounds(mesh));
   double quantum[2] = {0.0, 0.0};
   for (int a = 0; a < 2; ++a) {
-    for (int power = static_cast<int>(std::ceil(std::log10(std::clamp(size[a], 1e-300, 1e300)))); std::pow(10.0, power) > 1e-3 * edge; --power) {
+    for (int power = static_cast<int>(std::ceil(std::log10(std::clamp(size[a], 1e-300, 1e300))));
+         std::pow(10.0, power) > 1e-3 * edge; --power) {
       const double q = std::pow(10.0, power);
-      const bool all = std::all_of(mesh.vertex.begin(), mesh.vertex.end(), [&](const Vec3d& v) { return std::abs(v[a] / q - std::round(v[a] / q)) < 1e-6; });
+      const bool all = std::all_of(mesh.vertex.begin(), mesh.vertex.end(),
+                                   [&](const Vec3d& v) { return std::abs(v[a] / q - std::round(v[a] / q)) < 1e-6; });
       if (!all) continue;
       quantum[a] = q;
       break;
@@ -45,7 +47,8 @@ void find_rounding(FileReport& r, const TriangleMesh& mesh) {
   }
   for (int a = 0; a < 2; ++a) {
     if (quantum[a] < 0.05 * edge || quantum[a] <= 5.0 * quantum[1 - a]) continue;
-    r.found.push_back(std::string("all ") + "xy"[a] + " coordinates are multiples of " + number(quantum[a]) + " m (the other axis: finer), mean edge " + number(edge) +
+    r.found.push_back(std::string("all ") + "xy"[a] + " coordinates are multiples of " + number(quantum[a]) +
+                      " m (the other axis: finer), mean edge " + number(edge) +
                       " m: the file was written with too few digits, and positions are off by up to half of that");
   }
 }
@@ -62,7 +65,7 @@ void check_mesh(FileReport& r) {
     mesh = read_mesh(r.path, options);
   } catch (const Error& e) {
     if (std::string(e.what()).find("mesh_size") == std::string::npos) throw;
-    options.mesh_size = 0.05;   // judged at a twentieth of the unit; the scene states its own
+    options.mesh_size = 0.05;  // judged at a twentieth of the unit; the scene states its own
     mesh = read_mesh(r.path, options);
   }
   find_rounding(r, mesh);
@@ -92,12 +95,14 @@ void check_raster(FileReport& r, Raster raster) {
   for (const std::string& w : raster.warnings) r.found.push_back(w.substr(r.path.size() + 2));
   std::size_t missing = 0;
   for (const double z : raster.field.z) missing += !std::isfinite(z);
-  r.numbers = {{"columns", raster.field.nx}, {"rows", raster.field.ny}, {"dx", raster.field.dx}, {"dy", raster.field.dy}};
+  r.numbers = {
+      {"columns", raster.field.nx}, {"rows", raster.field.ny}, {"dx", raster.field.dx}, {"dy", raster.field.dy}};
   add_count(r, "missing_nodes", missing, "nodes without data");
   add_box(r, bounds(raster.field));
   if (const std::size_t n = fill_small_gaps(raster.field)) {
     r.verdict = MeshVerdict::repaired;
-    r.repair.push_back(std::to_string(n) + " of them, enclosed and few, filled from their rim where the raster is a terrain");
+    r.repair.push_back(std::to_string(n) +
+                       " of them, enclosed and few, filled from their rim where the raster is a terrain");
   }
   if (raster.crs.empty()) r.found.push_back("the coordinate system is not stated; give terrain.crs where it matters");
 }
@@ -112,12 +117,15 @@ void check_points(FileReport& r) {
     Box box = empty_box();
     for (const auto& p : points) extend(box, p);
     const int flat = extent(box).x == 0.0 ? 0 : 1;
-    r.refusal = "its points span no area: the first three columns are taken as x y z, and " + std::string(flat == 0 ? "x" : "y") + " is " + number(box.lower[flat]) +
-                " throughout" + (flat == 0 ? " (is the first column a number of the line or ring?)" : "");
+    r.refusal = "its points span no area: the first three columns are taken as x y z, and " +
+                std::string(flat == 0 ? "x" : "y") + " is " + number(box.lower[flat]) + " throughout" +
+                (flat == 0 ? " (is the first column a number of the line or ring?)" : "");
     return;
   }
   r.kind = "points";
-  if (points.size() > mesh.vertex.size()) r.found.push_back(std::to_string(points.size() - mesh.vertex.size()) + " points at the place of others (the mean height is taken)");
+  if (points.size() > mesh.vertex.size())
+    r.found.push_back(std::to_string(points.size() - mesh.vertex.size()) +
+                      " points at the place of others (the mean height is taken)");
 }
 
 }  // namespace

@@ -13,11 +13,11 @@ namespace gdesp::geometry {
 struct FileReport {
   std::string path;
   MeshVerdict verdict = MeshVerdict::usable;
-  std::string kind;                                        ///< "solid", "sheet", "raster", "points", "" when refused
-  std::vector<std::pair<std::string, double>> numbers;     ///< counts, bounds (m), volume
-  std::vector<std::string> found;                          ///< what is wrong or odd
-  std::vector<std::string> repair;                         ///< what repair does
-  std::string refusal;                                     ///< why, and where
+  std::string kind;                                     ///< "solid", "sheet", "raster", "points", "" when refused
+  std::vector<std::pair<std::string, double>> numbers;  ///< counts, bounds (m), volume
+  std::vector<std::string> found;                       ///< what is wrong or odd
+  std::vector<std::string> repair;                      ///< what repair does
+  std::string refusal;                                  ///< why, and where
 };
 
 /// Never throws for a bad file: the report says so.

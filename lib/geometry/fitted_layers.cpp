@@ -11,22 +11,23 @@ namespace gdesp::geometry {
 namespace {
 
 // All lengths in dp.
-constexpr double reach = 2.0;            // of the repulsion within a layer
-constexpr double fixed_reach = 1.0;      // of the repulsion by particles that stay
-constexpr double skin = 0.6;             // of the lists of neighbours, which last for a few steps
+constexpr double reach = 2.0;        // of the repulsion within a layer
+constexpr double fixed_reach = 1.0;  // of the repulsion by particles that stay
+constexpr double skin = 0.6;         // of the lists of neighbours, which last for a few steps
 constexpr int renewal = 5;
-constexpr double pace = 0.4;             // of a step over the sum of repulsions
+constexpr double pace = 0.4;  // of a step over the sum of repulsions
 constexpr double longest_step = 0.15;
-constexpr double still = 0.001;          // mean step at which the layers count as even
+constexpr double still = 0.001;  // mean step at which the layers count as even
 constexpr int most_steps = 60;
-constexpr double leash = 1.0;            // from where a particle was born: a layer that ends does not spread past its end
-constexpr double look = 0.25;            // way after which the surface is looked at again
-constexpr double farthest = 5.0;         // from the surface
-constexpr double misfit = 0.25;          // largest error of a depth at which a particle still belongs to its layer
+constexpr double leash = 1.0;     // from where a particle was born: a layer that ends does not spread past its end
+constexpr double look = 0.25;     // way after which the surface is looked at again
+constexpr double farthest = 5.0;  // from the surface
+constexpr double misfit = 0.25;   // largest error of a depth at which a particle still belongs to its layer
 
 class Layers {
  public:
-  explicit Layers(const LayerRequest& r) : r_(r), dp_(r.lattice.dp), flat_(r.lattice.dimensions == 2), tree_(*r.surface) {}
+  explicit Layers(const LayerRequest& r)
+      : r_(r), dp_(r.lattice.dp), flat_(r.lattice.dimensions == 2), tree_(*r.surface) {}
 
   std::vector<LayerPoint> fit(const std::vector<BandPoint>& band) {
     seed(band, kept_on_lattice(band));
@@ -43,7 +44,10 @@ class Layers {
   }
 
  private:
-  struct Foot { double depth; Vec3d normal; };   // m; unit, towards the surface
+  struct Foot {
+    double depth;
+    Vec3d normal;
+  };  // m; unit, towards the surface
 
   double depth_of(int layer) const { return (layer + 0.5) * dp_; }
 
@@ -90,7 +94,8 @@ class Layers {
       const Vec3d normal = static_cast<Vec3d>(band[i].normal);
       const double depth = -band[i].distance;
       if (kept[i]) {
-        if (is_in_layers(band[i])) add({r_.lattice.place(band[i].at), normal, placed_depth(band[i], r_.lattice), band[i].material}, -1);
+        if (is_in_layers(band[i]))
+          add({r_.lattice.place(band[i].at), normal, placed_depth(band[i], r_.lattice), band[i].material}, -1);
         continue;
       }
       for (int k = 0; k < boundary_layer_count; ++k) {
@@ -192,7 +197,7 @@ class Layers {
   bool flat_;
   TriangleTree tree_;
   std::vector<LayerPoint> point_;
-  std::vector<int> layer_;                             // -1: stays on the lattice
+  std::vector<int> layer_;  // -1: stays on the lattice
   std::vector<Vec3d> born_, looked_, step_, all_;
   std::vector<std::vector<std::uint32_t>> neighbour_;  // of the same layer, or such as stay
 };
@@ -202,7 +207,7 @@ class Layers {
 double cube_below_plane(const Vec3d& n, double level) {
   double m[3], sum = 0.0;
   for (int a = 0; a < 3; ++a) m[a] = std::max(std::abs(n[a]), 1e-3), sum += m[a];
-  const double s = level + 0.5 * sum;   // from the corner that lies lowest
+  const double s = level + 0.5 * sum;  // from the corner that lies lowest
   if (s <= 0.0) return 0.0;
   if (s >= sum) return 1.0;
   const auto cube = [](double x) { return x > 0.0 ? x * x * x : 0.0; };
@@ -211,6 +216,8 @@ double cube_below_plane(const Vec3d& n, double level) {
   return v / (6.0 * m[0] * m[1] * m[2]);
 }
 
-std::vector<LayerPoint> fit_layers(const std::vector<BandPoint>& band, const LayerRequest& request) { return Layers(request).fit(band); }
+std::vector<LayerPoint> fit_layers(const std::vector<BandPoint>& band, const LayerRequest& request) {
+  return Layers(request).fit(band);
+}
 
 }  // namespace gdesp::geometry

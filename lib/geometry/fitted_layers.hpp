@@ -28,19 +28,19 @@ inline double placed_depth(const BandPoint& b, const Lattice& lattice) {
 }
 
 struct LayerPoint {
-  Vec3d position;        ///< m
-  Vec3d normal;          ///< unit, into the fluid
-  double depth;          ///< m
+  Vec3d position;  ///< m
+  Vec3d normal;    ///< unit, into the fluid
+  double depth;    ///< m
   std::int32_t material;
 };
 
 struct LayerRequest {
   const TriangleMesh* surface = nullptr;
   Lattice lattice;
-  Box domain;                     ///< m: no particle lies outside
-  std::vector<Vec3d> others;      ///< m: wall particles that stand already; these keep their distance
-  std::vector<Vec3d> wet;         ///< m: water beside which walls stay on the lattice that it stands on,
-  double wet_reach = 0.0;         ///< m: as far as this from it
+  Box domain;                 ///< m: no particle lies outside
+  std::vector<Vec3d> others;  ///< m: wall particles that stand already; these keep their distance
+  std::vector<Vec3d> wet;     ///< m: water beside which walls stay on the lattice that it stands on,
+  double wet_reach = 0.0;     ///< m: as far as this from it
 };
 
 /// Layers below the surface. `band`: signed distances on the lattice, half width fitted_band, in order. Where a wall is too thin or its edge

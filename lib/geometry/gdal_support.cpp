@@ -33,7 +33,7 @@ void CPL_STDCALL hand_over(CPLErr level, CPLErrorNum, const char* text) {
 void gdal_start() {
   static std::once_flag once;
   std::call_once(once, [] {
-    CPLSetConfigOption("GDAL_PAM_ENABLED", "NO");   // never leaves .aux.xml files beside the input
+    CPLSetConfigOption("GDAL_PAM_ENABLED", "NO");  // never leaves .aux.xml files beside the input
     GDALAllRegister();
   });
 }
@@ -56,7 +56,8 @@ std::string QuietGdal::message() const { return last_.empty() ? "no reason given
 
 std::vector<std::string> QuietGdal::warnings(const std::string& path) const {
   if (warning_count_ == 0) return {};
-  return {path + ": GDAL warns: " + first_warning_ + (warning_count_ > 1 ? " (and " + std::to_string(warning_count_ - 1) + " more)" : "")};
+  return {path + ": GDAL warns: " + first_warning_ +
+          (warning_count_ > 1 ? " (and " + std::to_string(warning_count_ - 1) + " more)" : "")};
 }
 
 std::string wkt_of(const OGRSpatialReference& crs) {
@@ -72,7 +73,8 @@ std::string check_crs(const std::string& text, const std::string& where) {
   gdal_start();
   const OGRSpatialReference crs = parsed(text);
   if (crs.IsEmpty()) {
-    throw Error(ErrorKind::input, where + ": unknown coordinate system \"" + text + "\"; valid: e.g. \"EPSG:2193\", WKT, PROJ text");
+    throw Error(ErrorKind::input,
+                where + ": unknown coordinate system \"" + text + "\"; valid: e.g. \"EPSG:2193\", WKT, PROJ text");
   }
   return wkt_of(crs);
 }

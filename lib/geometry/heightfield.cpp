@@ -81,7 +81,7 @@ Heightfield crop(const Heightfield& f, const Box& box) {
 }
 
 std::size_t fill_small_gaps(Heightfield& f) {
-  constexpr std::size_t most = 64;   // nodes of one gap
+  constexpr std::size_t most = 64;  // nodes of one gap
   std::vector<char> seen(f.z.size(), 0);
   std::size_t filled = 0;
   const auto index = [&](int i, int j) { return static_cast<std::size_t>(j) * f.nx + i; };
@@ -111,7 +111,8 @@ std::size_t fill_small_gaps(Heightfield& f) {
       if (!enclosed || gap.size() > most || rim == 0) continue;
       for (const auto& [a, b] : gap) f.at(a, b) = sum / static_cast<double>(rim);
       for (int sweep = 0; sweep < 200; ++sweep) {
-        for (const auto& [a, b] : gap) f.at(a, b) = 0.25 * (f.at(a - 1, b) + f.at(a + 1, b) + f.at(a, b - 1) + f.at(a, b + 1));
+        for (const auto& [a, b] : gap)
+          f.at(a, b) = 0.25 * (f.at(a - 1, b) + f.at(a + 1, b) + f.at(a, b - 1) + f.at(a, b + 1));
       }
       filled += gap.size();
     }
@@ -137,8 +138,9 @@ void write_esri_ascii(const Heightfield& f, const std::string& path, int decimal
   {
     std::unique_ptr<FILE, int (*)(FILE*)> file(std::fopen(aside.c_str(), "w"), &std::fclose);
     if (!file) throw Error(ErrorKind::resource, path + ": cannot be written");
-    std::fprintf(file.get(), "ncols %d\nnrows %d\nxllcenter %.10g\nyllcenter %.10g\ncellsize %.10g\nNODATA_value -9999\n",
-                 f.nx, f.ny, f.x0, f.y0, f.dx);
+    std::fprintf(file.get(),
+                 "ncols %d\nnrows %d\nxllcenter %.10g\nyllcenter %.10g\ncellsize %.10g\nNODATA_value -9999\n", f.nx,
+                 f.ny, f.x0, f.y0, f.dx);
     for (int j = f.ny - 1; j >= 0; --j) {
       for (int i = 0; i < f.nx; ++i) {
         const double z = f.at(i, j);

@@ -15,7 +15,7 @@ namespace gdesp::geometry {
 struct Heightfield {
   double x0 = 0.0, y0 = 0.0, dx = 1.0, dy = 1.0;
   int nx = 0, ny = 0;
-  std::vector<double> z;   ///< m, row by row from the south
+  std::vector<double> z;  ///< m, row by row from the south
   double& at(int i, int j) { return z[static_cast<std::size_t>(j) * nx + i]; }
   double at(int i, int j) const { return z[static_cast<std::size_t>(j) * nx + i]; }
 };

@@ -15,10 +15,11 @@ namespace gdesp::geometry {
 using Index3 = Vec3<std::int32_t>;
 
 struct Lattice {
-  Vec3d origin;        ///< m, lower corner of cell (0, 0, 0)
-  double dp = 1.0;     ///< m
+  Vec3d origin;     ///< m, lower corner of cell (0, 0, 0)
+  double dp = 1.0;  ///< m
   int dimensions = 3;
-  std::vector<double> row_shift = {};  ///< dp, upwards: [k] of row k below the plane z = origin.z (sph.surface-rows); others 0
+  std::vector<double> row_shift =
+      {};  ///< dp, upwards: [k] of row k below the plane z = origin.z (sph.surface-rows); others 0
 
   double coordinate(int axis, std::int32_t i) const {
     return dimensions == 2 && axis == 1 ? 0.0 : origin[axis] + (i + 0.5) * dp;
@@ -27,12 +28,15 @@ struct Lattice {
   /// m, upwards: where the particles of row k stand, from their lattice points.
   double shift(std::int32_t k) const {
     const std::int64_t row = -1 - static_cast<std::int64_t>(k);
-    return row >= 0 && row < static_cast<std::int64_t>(row_shift.size()) ? row_shift[static_cast<std::size_t>(row)] * dp : 0.0;
+    return row >= 0 && row < static_cast<std::int64_t>(row_shift.size()) ? row_shift[static_cast<std::size_t>(row)] * dp
+                                                                         : 0.0;
   }
   /// Where the particle of a lattice point stands.
   Vec3d place(const Index3& i) const { return point(i) + Vec3d{0.0, 0.0, shift(i.z)}; }
   /// Index of the cell that c lies in.
-  std::int32_t nearest(int axis, double c) const { return static_cast<std::int32_t>(std::floor((c - origin[axis]) / dp)); }
+  std::int32_t nearest(int axis, double c) const {
+    return static_cast<std::int32_t>(std::floor((c - origin[axis]) / dp));
+  }
   /// Index of the first cell centre at or above c.
   std::int32_t first_at_or_above(int axis, double c) const {
     return static_cast<std::int32_t>(std::ceil((c - origin[axis]) / dp - 0.5 - 1e-9));

@@ -34,7 +34,8 @@ Layer with_ring(const Layer& in) {
   for (int j = 0; j < out.grid.ny; ++j) {
     for (int i = 0; i < out.grid.nx; ++i) {
       const int a = std::clamp(i - 1, 0, in.grid.nx - 1), b = std::clamp(j - 1, 0, in.grid.ny - 1);
-      const std::size_t from = static_cast<std::size_t>(b) * in.grid.nx + a, to = static_cast<std::size_t>(j) * out.grid.nx + i;
+      const std::size_t from = static_cast<std::size_t>(b) * in.grid.nx + a,
+                        to = static_cast<std::size_t>(j) * out.grid.nx + i;
       out.bottom[to] = in.bottom[from];
       const bool own = a == i - 1 && b == j - 1;
       const double t = own ? in.thickness[from] : 0.0;
@@ -62,7 +63,8 @@ class LayerVertices {
     if (index[node] < 0) {
       const double x = layer_.grid.x0 + i * layer_.grid.dx, y = layer_.grid.y0 + j * layer_.grid.dy;
       if (!std::isfinite(layer_.bottom[node])) {
-        throw Error(ErrorKind::input, what_ + ": reaches where there is no terrain, or none within the domain (" + at(x, y) + ")");
+        throw Error(ErrorKind::input,
+                    what_ + ": reaches where there is no terrain, or none within the domain (" + at(x, y) + ")");
       }
       index[node] = static_cast<std::int32_t>(mesh_.vertex.size());
       mesh_.vertex.push_back({x, y, layer_.bottom[node] + above});
@@ -93,7 +95,8 @@ Heightfield grid_over(const Box& box, double spacing) {
   g.y0 = box.lower.y - spacing;
   g.nx = static_cast<int>(std::ceil((box.upper.x - box.lower.x) / spacing)) + 3;
   g.ny = static_cast<int>(std::ceil((box.upper.y - box.lower.y) / spacing)) + 3;
-  if (static_cast<double>(g.nx) * g.ny > 1e8) throw Error(ErrorKind::resource, "a layered body on more than 1e8 nodes; coarsen resolution.dp");
+  if (static_cast<double>(g.nx) * g.ny > 1e8)
+    throw Error(ErrorKind::resource, "a layered body on more than 1e8 nodes; coarsen resolution.dp");
   return g;
 }
 
@@ -127,7 +130,8 @@ std::size_t lower_terrain(TriangleMesh& terrain, const Heightfield& floor) {
   return lowered;
 }
 
-Layer polygon_layer(const Shape& shape, const std::string& name, const Scene& scene, const TerrainSheet& terrain, Notes& notes) {
+Layer polygon_layer(const Shape& shape, const std::string& name, const Scene& scene, const TerrainSheet& terrain,
+                    Notes& notes) {
   Layer layer;
   if (shape.thickness.empty()) {
     const double spacing = std::min(terrain.spacing > 0.0 ? terrain.spacing : scene.dp, scene.dp);
@@ -149,8 +153,9 @@ Layer polygon_layer(const Shape& shape, const std::string& name, const Scene& sc
     }
   }
   if (negative && positive) {
-    throw Error(ErrorKind::input, name + ": " + shape.thickness + " holds thicknesses of both signs; give a raster of one sign "
-                                  "(positive: on the terrain, negative: below it)");
+    throw Error(ErrorKind::input, name + ": " + shape.thickness +
+                                      " holds thicknesses of both signs; give a raster of one sign "
+                                      "(positive: on the terrain, negative: below it)");
   }
   return layer;
 }
@@ -173,7 +178,8 @@ void dig_out(Layer& layer, TerrainSheet& terrain, const std::string& name, Notes
                        std::to_string(lowered) + " vertices");
 }
 
-Layer surfaces_layer(const Shape& shape, const std::string& name, const Scene& scene, TerrainSheet& terrain, Notes& notes) {
+Layer surfaces_layer(const Shape& shape, const std::string& name, const Scene& scene, TerrainSheet& terrain,
+                     Notes& notes) {
   const TerrainSheet below = load_sheet(shape.surface_below, scene.terrain, terrain.crs, notes);
   const TerrainSheet above = load_sheet(shape.surface_above, scene.terrain, terrain.crs, notes);
   const Box a = bounds(below.mesh), b = bounds(above.mesh);
@@ -203,7 +209,9 @@ Layer surfaces_layer(const Shape& shape, const std::string& name, const Scene& s
     if (t > 0.0) floor.z[k] = layer.bottom[k];
   }
   const std::size_t lowered = lower_terrain(terrain.mesh, floor);
-  if (lowered) notes.done.push_back(name + ": the terrain was lowered to the sliding surface at " + std::to_string(lowered) + " vertices");
+  if (lowered)
+    notes.done.push_back(name + ": the terrain was lowered to the sliding surface at " + std::to_string(lowered) +
+                         " vertices");
   return layer;
 }
 
@@ -223,10 +231,12 @@ TriangleMesh layer_mesh(const Layer& given, const std::string& what) {
   return mesh;
 }
 
-TriangleMesh layered_body(const Shape& shape, const std::string& name, const Scene& scene, TerrainSheet& terrain, Notes& notes) {
+TriangleMesh layered_body(const Shape& shape, const std::string& name, const Scene& scene, TerrainSheet& terrain,
+                          Notes& notes) {
   if (!shape.surface_below.empty()) return layer_mesh(surfaces_layer(shape, name, scene, terrain, notes), name);
   if (terrain.mesh.empty()) {
-    throw Error(ErrorKind::input, name + ": a polygon with a thickness stands on the terrain, but the scene has none (terrain.files)");
+    throw Error(ErrorKind::input,
+                name + ": a polygon with a thickness stands on the terrain, but the scene has none (terrain.files)");
   }
   Layer layer = polygon_layer(shape, name, scene, terrain, notes);
   dig_out(layer, terrain, name, notes);

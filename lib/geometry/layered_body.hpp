@@ -19,6 +19,7 @@ TriangleMesh layer_mesh(const Layer& layer, const std::string& what);
 
 /// Body of a shape that is layered (polygon + thickness, or surface_below + surface_above); lowers `terrain` where
 /// the body lies in it (negative thickness: metres below the terrain; or a sliding surface below the terrain).
-TriangleMesh layered_body(const Shape& shape, const std::string& name, const Scene& scene, TerrainSheet& terrain, Notes& notes);
+TriangleMesh layered_body(const Shape& shape, const std::string& name, const Scene& scene, TerrainSheet& terrain,
+                          Notes& notes);
 
 }  // namespace gdesp::geometry

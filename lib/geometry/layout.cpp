@@ -13,14 +13,15 @@
 namespace gdesp::geometry {
 namespace {
 
-constexpr double layer_margin = boundary_layer_count + 0.5;   // dp around the walls' surfaces
+constexpr double layer_margin = boundary_layer_count + 0.5;  // dp around the walls' surfaces
 
 bool is_periodic(const Scene& scene, const char* axis) {
   return std::find(scene.periodic.begin(), scene.periodic.end(), axis) != scene.periodic.end();
 }
 
 bool has_tank(const SceneParts& parts) {
-  return std::any_of(parts.walls.begin(), parts.walls.end(), [](const WallPart& w) { return w.kind == WallPart::Kind::tank; });
+  return std::any_of(parts.walls.begin(), parts.walls.end(),
+                     [](const WallPart& w) { return w.kind == WallPart::Kind::tank; });
 }
 
 /// Where a prescribed body comes to, until time.end.
@@ -40,15 +41,17 @@ Box surface_bounds(const SceneParts& parts, const Scene& scene) {
   Box box = bounds(parts);
   const Box still = box;
   for (std::size_t k = 0; k < parts.moving.size(); ++k) {
-    include_motion(box, bounds(parts.moving[k].mesh), moving_body(scene.moving[k], norm(scene.gravity)).motion, scene.time.end);
+    include_motion(box, bounds(parts.moving[k].mesh), moving_body(scene.moving[k], norm(scene.gravity)).motion,
+                   scene.time.end);
   }
   for (std::size_t k = 0; k < parts.slides.size(); ++k) {
-    if (scene.slides[k].kind == "prescribed") include_motion(box, bounds(parts.slides[k].mesh), prescribed_slide(scene.slides[k]).motion, scene.time.end);
+    if (scene.slides[k].kind == "prescribed")
+      include_motion(box, bounds(parts.slides[k].mesh), prescribed_slide(scene.slides[k]).motion, scene.time.end);
   }
   for (const auto& f : scene.fluid.fill) {
     if (f.box) include(box, *f.box);
   }
-  box.upper.z += std::max(0.5 * extent(still).z, 10.0 * scene.dp);   // room for splashes
+  box.upper.z += std::max(0.5 * extent(still).z, 10.0 * scene.dp);  // room for splashes
   return box;
 }
 
@@ -76,8 +79,10 @@ Box outer_domain(Box box, const Scene& scene) {
 
 /// Whether the rows of sph.surface-rows are at rest: where walls carry the water's own linear pressure on, and gravity points down.
 bool rests_on_its_rows(const Scene& scene) {
-  const bool on_lattice = scene.numerics.wall_layers != "fitted" || scene.dimensions == 3;   // walls beside the water (fitted_layers.hpp)
-  return on_lattice && scene.numerics.walls == "extrapolated" && scene.gravity.x == 0.0 && scene.gravity.y == 0.0 && scene.gravity.z < 0.0;
+  const bool on_lattice =
+      scene.numerics.wall_layers != "fitted" || scene.dimensions == 3;  // walls beside the water (fitted_layers.hpp)
+  return on_lattice && scene.numerics.walls == "extrapolated" && scene.gravity.x == 0.0 && scene.gravity.y == 0.0 &&
+         scene.gravity.z < 0.0;
 }
 
 Lattice choose_lattice(const SceneParts& parts, const Scene& scene, const Box& inner) {
@@ -97,7 +102,8 @@ Lattice choose_lattice(const SceneParts& parts, const Scene& scene, const Box& i
     if (f.kind != "level") continue;
     lattice.origin.z = f.level;
     anchored = true;
-    if (rests_on_its_rows(scene)) lattice.row_shift = surface_row_shifts(scene.numerics.smoothing_ratio, scene.dimensions);
+    if (rests_on_its_rows(scene))
+      lattice.row_shift = surface_row_shifts(scene.numerics.smoothing_ratio, scene.dimensions);
   }
   if (scene.dimensions == 2) lattice.origin.y = -0.5 * scene.dp;
   return lattice;
@@ -127,7 +133,8 @@ Vec3d choose_offset(const Box& box, int dimensions) {
   const double unit = std::pow(10.0, std::floor(std::log10(length)));
   for (int a = 0; a < 3; ++a) {
     if (dimensions == 2 && a == 1) continue;
-    if (std::max(std::abs(box.lower[a]), std::abs(box.upper[a])) > 2.0 * length) offset[a] = std::floor(box.lower[a] / unit) * unit;
+    if (std::max(std::abs(box.lower[a]), std::abs(box.upper[a])) > 2.0 * length)
+      offset[a] = std::floor(box.lower[a] / unit) * unit;
   }
   return offset;
 }
@@ -160,7 +167,8 @@ Layout lay_out(const Scene& scene, Notes& notes) {
     const Box whole = bounds(out.parts.terrain);
     out.parts.terrain = crop(out.parts.terrain, keep);
     if (out.parts.terrain.empty()) {
-      throw Error(ErrorKind::input, "domain (" + span_text(out.domain, out.offset) + "): no terrain lies inside it, which spans " + span_text(whole, out.offset) +
+      throw Error(ErrorKind::input, "domain (" + span_text(out.domain, out.offset) +
+                                        "): no terrain lies inside it, which spans " + span_text(whole, out.offset) +
                                         "; are both in the same coordinates?");
     }
   }

@@ -39,7 +39,9 @@ std::string at(const Vec3d& p) {
 
 Vec3d vec(const Point& p) { return {p.x(), p.y(), p.z()}; }
 
-std::string plural(std::size_t n, const char* one, const char* many) { return std::to_string(n) + " " + (n == 1 ? one : many); }
+std::string plural(std::size_t n, const char* one, const char* many) {
+  return std::to_string(n) + " " + (n == 1 ? one : many);
+}
 
 std::size_t count_degenerate(const TriangleMesh& mesh) {
   std::size_t n = 0;
@@ -63,7 +65,8 @@ MeshReport plain_sheet_report(const TriangleMesh& mesh) {
 
 class Repair {
  public:
-  Repair(TriangleMesh& mesh, MeshPurpose purpose, const RepairLimits& limits) : mesh_(mesh), purpose_(purpose), limits_(limits) {}
+  Repair(TriangleMesh& mesh, MeshPurpose purpose, const RepairLimits& limits)
+      : mesh_(mesh), purpose_(purpose), limits_(limits) {}
 
   MeshReport run() {
     describe();
@@ -105,7 +108,8 @@ class Repair {
   void clean_soup() {
     for (const auto& v : mesh_.vertex) points_.emplace_back(v.x, v.y, v.z);
     for (const auto& t : mesh_.triangle) {
-      triangles_.push_back({static_cast<std::size_t>(t.x), static_cast<std::size_t>(t.y), static_cast<std::size_t>(t.z)});
+      triangles_.push_back(
+          {static_cast<std::size_t>(t.x), static_cast<std::size_t>(t.y), static_cast<std::size_t>(t.z)});
     }
     report_.duplicate_vertices = pmp::merge_duplicate_points_in_polygon_soup(points_, triangles_);
     const EdgeCounts edges = count_edges(from_soup());
@@ -113,23 +117,33 @@ class Repair {
     report_.non_manifold_edges = edges.non_manifold;
     report_.inconsistent_edges = edges.inconsistent;
     non_manifold_at_ = edges.non_manifold_at;
-    if (report_.duplicate_vertices) did(plural(report_.duplicate_vertices, "vertex at the place of another joined with it", "vertices at the places of others joined with them"));
+    if (report_.duplicate_vertices)
+      did(plural(report_.duplicate_vertices, "vertex at the place of another joined with it",
+                 "vertices at the places of others joined with them"));
     const std::size_t before = triangles_.size();
-    triangles_.erase(std::remove_if(triangles_.begin(), triangles_.end(), [](const TriangleSoup::value_type& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }),
-                     triangles_.end());
-    if (const std::size_t n = before - triangles_.size()) did(plural(n, "triangle without area removed", "triangles without area removed"));
-    if (const std::size_t n = remove_flaps(triangles_)) did(plural(n, "pair", "pairs") + " of triangles back to back, with nothing between them, removed");
-    report_.duplicate_triangles = pmp::merge_duplicate_polygons_in_polygon_soup(points_, triangles_, CGAL::parameters::require_same_orientation(false));
-    if (report_.duplicate_triangles) did(plural(report_.duplicate_triangles, "double triangle removed", "double triangles removed"));
+    triangles_.erase(
+        std::remove_if(triangles_.begin(), triangles_.end(),
+                       [](const TriangleSoup::value_type& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }),
+        triangles_.end());
+    if (const std::size_t n = before - triangles_.size())
+      did(plural(n, "triangle without area removed", "triangles without area removed"));
+    if (const std::size_t n = remove_flaps(triangles_))
+      did(plural(n, "pair", "pairs") + " of triangles back to back, with nothing between them, removed");
+    report_.duplicate_triangles = pmp::merge_duplicate_polygons_in_polygon_soup(
+        points_, triangles_, CGAL::parameters::require_same_orientation(false));
+    if (report_.duplicate_triangles)
+      did(plural(report_.duplicate_triangles, "double triangle removed", "double triangles removed"));
     report_.unused_vertices = pmp::remove_isolated_points_in_polygon_soup(points_, triangles_);
-    if (report_.unused_vertices) did(plural(report_.unused_vertices, "unused vertex dropped", "unused vertices dropped"));
+    if (report_.unused_vertices)
+      did(plural(report_.unused_vertices, "unused vertex dropped", "unused vertices dropped"));
   }
 
   TriangleMesh from_soup() const {
     TriangleMesh m;
     for (const auto& p : points_) m.vertex.push_back(vec(p));
     for (const auto& t : triangles_) {
-      m.triangle.push_back({static_cast<std::int32_t>(t[0]), static_cast<std::int32_t>(t[1]), static_cast<std::int32_t>(t[2])});
+      m.triangle.push_back(
+          {static_cast<std::int32_t>(t[0]), static_cast<std::int32_t>(t[1]), static_cast<std::int32_t>(t[2])});
     }
     return m;
   }
@@ -144,16 +158,19 @@ class Repair {
       return false;
     }
     pmp::polygon_soup_to_polygon_mesh(points_, triangles_, surface_);
-    if (const std::size_t n = pmp::stitch_borders(surface_)) did(plural(n, "pair of border edges sewn together", "pairs of border edges sewn together"));
+    if (const std::size_t n = pmp::stitch_borders(surface_))
+      did(plural(n, "pair of border edges sewn together", "pairs of border edges sewn together"));
     if (flipped) did("facets of mixed orientation turned (" + plural(flipped, "edge", "edges") + " disagreed)");
     count_parts();
     if (report_.non_manifold_edges > 0) {
       if (!CGAL::is_closed(surface_)) {
-        refuse(plural(report_.non_manifold_edges, "edge is shared", "edges are shared") + " by more than two triangles, e.g. near " + at(non_manifold_at_) +
+        refuse(plural(report_.non_manifold_edges, "edge is shared", "edges are shared") +
+               " by more than two triangles, e.g. near " + at(non_manifold_at_) +
                ", and cutting there leaves open parts: which side is solid would be a guess");
         return false;
       }
-      did(plural(report_.non_manifold_edges, "edge", "edges") + " with more than two triangles cut apart into closed parts");
+      did(plural(report_.non_manifold_edges, "edge", "edges") +
+          " with more than two triangles cut apart into closed parts");
     }
     return true;
   }
@@ -164,7 +181,7 @@ class Repair {
     std::vector<Surface::Halfedge_index> borders;
     pmp::extract_boundary_cycles(surface_, std::back_inserter(borders));
     report_.holes = borders.size();
-    if (purpose_ == MeshPurpose::sheet) return;   // what counts there is that no vertical line meets it twice
+    if (purpose_ == MeshPurpose::sheet) return;  // what counts there is that no vertical line meets it twice
     std::vector<std::pair<Surface::Face_index, Surface::Face_index>> pairs;
     pmp::self_intersections<CGAL::Parallel_if_available_tag>(surface_, std::back_inserter(pairs));
     report_.self_intersections = pairs.size();
@@ -197,12 +214,18 @@ class Repair {
   std::string sheet_refusal() {
     if (report_.holes == 0) return "is closed, not an open sheet: give it as a wall, or cut its top surface out";
     char text[200];
-    std::snprintf(text, sizeof text, "folds over itself seen from above (%.2g %% of its area, e.g. at %s): heights there would be a guess", 100.0 * folds_,
-                  at(fold_at_).c_str());
+    std::snprintf(text, sizeof text,
+                  "folds over itself seen from above (%.2g %% of its area, e.g. at %s): heights there would be a guess",
+                  100.0 * folds_, at(fold_at_).c_str());
     return text;
   }
 
-  struct Hole { Surface::Halfedge_index border; Vec3d place; double width = 0.0; std::size_t edges = 0; };
+  struct Hole {
+    Surface::Halfedge_index border;
+    Vec3d place;
+    double width = 0.0;
+    std::size_t edges = 0;
+  };
 
   /// Widest first.
   std::vector<Hole> measure_holes(const std::vector<Surface::Halfedge_index>& borders) const {
@@ -233,9 +256,11 @@ class Repair {
     for (const auto& hole : holes) {
       if (hole.width <= widest && hole.edges <= limits_.hole_edges) continue;
       char text[240];
-      std::snprintf(text, sizeof text, "is open: the %s around %s is %.4g m wide (%zu edges); holes up to %.4g m and %zu edges are closed, wider ones would be a guess",
-                    holes.size() == 1 ? "hole" : ("widest of its " + std::to_string(holes.size()) + " holes").c_str(), at(hole.place).c_str(), hole.width, hole.edges,
-                    widest, limits_.hole_edges);
+      std::snprintf(text, sizeof text,
+                    "is open: the %s around %s is %.4g m wide (%zu edges); holes up to %.4g m and %zu edges are "
+                    "closed, wider ones would be a guess",
+                    holes.size() == 1 ? "hole" : ("widest of its " + std::to_string(holes.size()) + " holes").c_str(),
+                    at(hole.place).c_str(), hole.width, hole.edges, widest, limits_.hole_edges);
       refuse(text);
       return false;
     }
@@ -249,7 +274,8 @@ class Repair {
     const double largest = holes.empty() ? 0.0 : holes.front().width;
     if (!borders.empty()) {
       char text[96];
-      std::snprintf(text, sizeof text, "%s closed (widest %.4g m)", plural(borders.size(), "hole", "holes").c_str(), largest);
+      std::snprintf(text, sizeof text, "%s closed (widest %.4g m)", plural(borders.size(), "hole", "holes").c_str(),
+                    largest);
       did(text);
     }
     return true;
@@ -260,12 +286,12 @@ class Repair {
     if (report_.self_intersections == 0) return true;
     const double share = static_cast<double>(report_.self_intersections) / static_cast<double>(report_.triangles);
     if (report_.components == 1 && share > 0.25) {
-      refuse(plural(report_.self_intersections, "pair", "pairs") + " of facets cross each other, e.g. near " + at(intersection_at_) +
-             ": a surface that crosses itself over most of its extent has no inside");
+      refuse(plural(report_.self_intersections, "pair", "pairs") + " of facets cross each other, e.g. near " +
+             at(intersection_at_) + ": a surface that crosses itself over most of its extent has no inside");
       return false;
     }
-    did(plural(report_.self_intersections, "pair", "pairs") + " of crossing facets kept (e.g. near " + at(intersection_at_) +
-        "): inside is where the winding number is positive");
+    did(plural(report_.self_intersections, "pair", "pairs") + " of crossing facets kept (e.g. near " +
+        at(intersection_at_) + "): inside is where the winding number is positive");
     return true;
   }
 
@@ -278,13 +304,15 @@ class Repair {
       const Point o = surface_.point(*surface_.vertices().begin());
       for (const auto f : surface_.faces()) {
         const auto h = surface_.halfedge(f);
-        volume[part[f]] += CGAL::volume(o, surface_.point(surface_.source(h)), surface_.point(surface_.target(h)), surface_.point(surface_.target(surface_.next(h))));
+        volume[part[f]] += CGAL::volume(o, surface_.point(surface_.source(h)), surface_.point(surface_.target(h)),
+                                        surface_.point(surface_.target(surface_.next(h))));
       }
       std::vector<Surface::Face_index> inward;
       for (const auto f : surface_.faces()) {
         if (volume[part[f]] < 0.0) inward.push_back(f);
       }
-      const auto shells = static_cast<std::size_t>(std::count_if(volume.begin(), volume.end(), [](double v) { return v < 0.0; }));
+      const auto shells =
+          static_cast<std::size_t>(std::count_if(volume.begin(), volume.end(), [](double v) { return v < 0.0; }));
       if (shells == 0) return;
       pmp::reverse_face_orientations(inward, surface_);
       did(plural(shells, "shell", "shells") + " turned inside out");
@@ -304,7 +332,8 @@ class Repair {
     }
     for (const auto f : surface_.faces()) {
       const auto h = surface_.halfedge(f);
-      m.triangle.push_back({index[surface_.source(h)], index[surface_.target(h)], index[surface_.target(surface_.next(h))]});
+      m.triangle.push_back(
+          {index[surface_.source(h)], index[surface_.target(h)], index[surface_.target(surface_.next(h))]});
     }
     return m;
   }
@@ -318,7 +347,7 @@ class Repair {
     double largest = 0.0;
     std::size_t closed = 0;
     const std::vector<Hole> holes = measure_holes(borders);
-    for (std::size_t k = 1; k < holes.size(); ++k) {   // the first is the outer rim
+    for (std::size_t k = 1; k < holes.size(); ++k) {  // the first is the outer rim
       const Hole& hole = holes[k];
       if (hole.width > widest || hole.edges > limits_.hole_edges) continue;
       std::vector<Surface::Face_index> patch;
@@ -329,7 +358,8 @@ class Repair {
     }
     if (closed == 0) return;
     char text[96];
-    std::snprintf(text, sizeof text, "%s in the sheet closed (widest %.4g m)", plural(closed, "hole", "holes").c_str(), largest);
+    std::snprintf(text, sizeof text, "%s in the sheet closed (widest %.4g m)", plural(closed, "hole", "holes").c_str(),
+                  largest);
     did(text);
   }
 
@@ -384,7 +414,8 @@ MeshReport check_and_repair(TriangleMesh& mesh, MeshPurpose purpose, const Repai
 
 void require_solid(TriangleMesh& mesh, const std::string& path, std::vector<std::string>& done) {
   const MeshReport report = check_and_repair(mesh, MeshPurpose::solid);
-  if (report.verdict == MeshVerdict::refused) throw Error(ErrorKind::input, path + ": no closed solid: " + report.refusal);
+  if (report.verdict == MeshVerdict::refused)
+    throw Error(ErrorKind::input, path + ": no closed solid: " + report.refusal);
   for (const auto& d : report.done) done.push_back(path + ": " + d);
 }
 

@@ -28,7 +28,9 @@ using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
 using Points = std::vector<Point>;
 using Polygons = std::vector<std::vector<std::size_t>>;
 
-[[noreturn]] void refuse(const std::string& path, const std::string& why) { throw Error(ErrorKind::input, path + ": " + why); }
+[[noreturn]] void refuse(const std::string& path, const std::string& why) {
+  throw Error(ErrorKind::input, path + ": " + why);
+}
 
 /// Lower-case ending without the dot; that before .gz where there is one.
 std::string ending(const std::string& path) {
@@ -73,7 +75,7 @@ class Unzipped {
 };
 
 bool read_soup(const std::string& path, const std::string& format, Points& points, Polygons& polygons) {
-  std::cerr.rdbuf(nullptr);   // CGAL tells of broken lines there; this is the child process
+  std::cerr.rdbuf(nullptr);  // CGAL tells of broken lines there; this is the child process
   std::ifstream in(path, std::ios::binary);
   if (format == "off") return CGAL::IO::read_OFF(in, points, polygons);
   if (format == "obj") return CGAL::IO::read_OBJ(in, points, polygons);
@@ -111,7 +113,7 @@ void check_ascii_stl(const std::string& path, const std::string& shown) {
   in.seekg(80);
   std::uint32_t count = 0;
   in.read(reinterpret_cast<char*>(&count), 4);
-  if (in && size == static_cast<std::streamoff>(84ull + 50ull * count)) return;   // binary that begins with "solid"
+  if (in && size == static_cast<std::streamoff>(84ull + 50ull * count)) return;  // binary that begins with "solid"
   refuse(shown, "ends without \"endsolid\": the ASCII STL was cut short");
 }
 
@@ -127,7 +129,7 @@ void join_equal_vertices(TriangleMesh& mesh) {
   std::vector<std::int32_t> index(mesh.vertex.size());
   std::vector<Vec3d> kept;
   for (std::size_t v = 0; v < mesh.vertex.size(); ++v) {
-    const Vec3d p = mesh.vertex[v] + Vec3d{0.0, 0.0, 0.0};   // -0 becomes 0
+    const Vec3d p = mesh.vertex[v] + Vec3d{0.0, 0.0, 0.0};  // -0 becomes 0
     const auto [at, fresh] = seen.try_emplace(p, static_cast<std::int32_t>(kept.size()));
     if (fresh) kept.push_back(p);
     index[v] = at->second;
@@ -143,7 +145,8 @@ TriangleMesh from_soup(const Points& points, const Polygons& polygons, const std
   for (const auto& polygon : polygons) {
     if (polygon.size() < 3) refuse(path, "a facet has fewer than three corners");
     for (const auto c : polygon) {
-      if (c >= points.size()) refuse(path, "a facet names vertex " + std::to_string(c) + " of " + std::to_string(points.size()));
+      if (c >= points.size())
+        refuse(path, "a facet names vertex " + std::to_string(c) + " of " + std::to_string(points.size()));
     }
     for (std::size_t k = 2; k < polygon.size(); ++k) {
       mesh.triangle.push_back({static_cast<std::int32_t>(polygon[0]), static_cast<std::int32_t>(polygon[k - 1]),
@@ -172,7 +175,8 @@ TriangleMesh read_mesh_cgal(const std::string& path, const std::string& format) 
     check_ascii_stl(file.path(), path);
   }
   try {
-    const auto points = read_isolated(file.path(), "CGAL", [&](const std::string& p, MemoryPoints& out) { read_surface(p, format, out); });
+    const auto points = read_isolated(file.path(), "CGAL",
+                                      [&](const std::string& p, MemoryPoints& out) { read_surface(p, format, out); });
     return {std::move(points->position), std::move(points->surface.triangle)};
   } catch (const Error& e) {
     if (file.path() == path) throw;
@@ -191,7 +195,8 @@ bool is_mesh_name(const std::string& path) {
 TriangleMesh read_mesh(const std::string& path, const MeshOptions& options) {
   if (!std::filesystem::exists(path)) refuse(path, "no such file");
   if (!std::filesystem::is_regular_file(path)) refuse(path, "is not a file");
-  if (!is_mesh_name(path)) refuse(path, "unknown mesh format \"" + ending(path) + "\"; valid: stl obj ply off vtk vtp vtu msh geo step stp");
+  if (!is_mesh_name(path))
+    refuse(path, "unknown mesh format \"" + ending(path) + "\"; valid: stl obj ply off vtk vtp vtu msh geo step stp");
   const std::string e = ending(path);
   TriangleMesh mesh;
   if (e == "vtk" || e == "vtp" || e == "vtu") {

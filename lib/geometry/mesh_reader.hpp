@@ -10,9 +10,9 @@
 namespace gdesp::geometry {
 
 struct MeshOptions {
-  double mesh_size = 0.0;   ///< m, element size for GEO and STEP (required there)
-  double scale = 1.0;       ///< unit of the file in metres
-  Vec3d translate;          ///< m, after scaling
+  double mesh_size = 0.0;  ///< m, element size for GEO and STEP (required there)
+  double scale = 1.0;      ///< unit of the file in metres
+  Vec3d translate;         ///< m, after scaling
 };
 
 /// Whether the name's ending is one of a mesh format (also with .gz behind it).

@@ -134,7 +134,8 @@ std::string bare_text(const std::string& text) {
       while (k < text.size() && text[k] != '\n') ++k;
     } else if (text.compare(k, 2, "/*") == 0) {
       const std::size_t end = text.find("*/", k + 2);
-      for (; k < text.size() && k < end; ++k) if (text[k] == '\n') out += '\n';
+      for (; k < text.size() && k < end; ++k)
+        if (text[k] == '\n') out += '\n';
       ++k;
     } else if (text[k] == '"') {
       const std::size_t end = text.find('"', k + 1);
@@ -154,9 +155,19 @@ void refuse_commands(const std::string& path) {
   const std::string start = all.substr(0, 200);
   if (start.rfind("$MeshFormat", 0) == 0 || start.rfind("ISO-10303-21", 0) == 0) return;
   const bool geo = path.size() > 4 && path.compare(path.size() - 4, 4, ".geo") == 0;
-  if (!geo) throw Error(ErrorKind::input, path + ": does not begin with " + (path.ends_with(".msh") ? "$MeshFormat (MSH 2 and 4 do)" : "ISO-10303-21 (STEP does)"));
-  static const char* const words[] = {"SystemCall", "NonBlockingSystemCall", "Print", "Printf", "Save", "SaveAll", "UnlinkFile", "CreateDir", "Plugin",
-                                      "Include", "Merge", "ShapeFromFile", "Exit", "Abort", "General", "OnelabRun", "SetString", "GetEnv"};
+  if (!geo)
+    throw Error(ErrorKind::input,
+                path + ": does not begin with " +
+                    (path.ends_with(".msh") ? "$MeshFormat (MSH 2 and 4 do)" : "ISO-10303-21 (STEP does)"));
+  static const char* const words[] = {"SystemCall", "NonBlockingSystemCall",
+                                      "Print",      "Printf",
+                                      "Save",       "SaveAll",
+                                      "UnlinkFile", "CreateDir",
+                                      "Plugin",     "Include",
+                                      "Merge",      "ShapeFromFile",
+                                      "Exit",       "Abort",
+                                      "General",    "OnelabRun",
+                                      "SetString",  "GetEnv"};
   const std::string text = bare_text(all);
   std::size_t line = 1;
   std::string word;
@@ -166,7 +177,10 @@ void refuse_commands(const std::string& path) {
       continue;
     }
     for (const char* const w : words) {
-      if (word == w) throw Error(ErrorKind::input, path + ":" + std::to_string(line) + ": \"" + word + "\" is a command to gmsh, not a shape; a GEO file of a scene may only describe geometry");
+      if (word == w)
+        throw Error(ErrorKind::input,
+                    path + ":" + std::to_string(line) + ": \"" + word +
+                        "\" is a command to gmsh, not a shape; a GEO file of a scene may only describe geometry");
     }
     word.clear();
     line += c == '\n';
@@ -194,9 +208,7 @@ TriangleMesh read_surface(const std::string& path, double mesh_size) {
     return collect(path);
   } catch (const std::string& why) {
     throw Error(ErrorKind::input, path + ": gmsh says: " + why);
-  } catch (const Error&) {
-    throw;
-  } catch (const std::exception& e) {
+  } catch (const Error&) { throw; } catch (const std::exception& e) {
     throw Error(ErrorKind::input, path + ": gmsh says: " + e.what());
   }
 }

@@ -19,7 +19,9 @@
 namespace gdesp::geometry {
 namespace {
 
-[[noreturn]] void refuse(const std::string& path, const std::string& why) { throw Error(ErrorKind::input, path + ": " + why); }
+[[noreturn]] void refuse(const std::string& path, const std::string& why) {
+  throw Error(ErrorKind::input, path + ": " + why);
+}
 
 template <class Reader>
 vtkSmartPointer<vtkDataSet> read_with(const std::string& path) {
@@ -40,7 +42,7 @@ vtkSmartPointer<vtkDataSet> read_data_set(const std::string& path) {
 /// In a child process: VTK follows whatever a damaged file says.
 void read_surface(const std::string& path, MemoryPoints& out) {
   refuse_implausible_vtk(path);
-  vtkObject::GlobalWarningDisplayOff();   // problems are told by the error below, not printed
+  vtkObject::GlobalWarningDisplayOff();  // problems are told by the error below, not printed
   const auto data = read_data_set(path);
   if (!data || data->GetNumberOfPoints() == 0) refuse(path, "is damaged, cut short, or no VTK file with points");
   const auto surface = vtkSmartPointer<vtkGeometryFilter>::New();
@@ -65,7 +67,8 @@ void read_surface(const std::string& path, MemoryPoints& out) {
   while (polys->GetNextCell(count, corner)) {
     if (count != 3) continue;
     for (int c = 0; c < 3; ++c) {
-      if (corner[c] < 0 || corner[c] >= n) refuse(path, "a cell names point " + std::to_string(corner[c]) + " of " + std::to_string(n));
+      if (corner[c] < 0 || corner[c] >= n)
+        refuse(path, "a cell names point " + std::to_string(corner[c]) + " of " + std::to_string(n));
     }
     out.surface.triangle.push_back({static_cast<std::int32_t>(corner[0]), static_cast<std::int32_t>(corner[1]),
                                     static_cast<std::int32_t>(corner[2])});

@@ -13,7 +13,9 @@ namespace gdesp::geometry {
 namespace {
 
 /// Edges by number of triangles, and by direction of use.
-struct EdgeUse { int forward = 0, backward = 0; };
+struct EdgeUse {
+  int forward = 0, backward = 0;
+};
 
 /// Whether two triangles on the same corners go round them the same way.
 bool same_turn(const std::vector<std::size_t>& a, const std::vector<std::size_t>& b) {
@@ -50,7 +52,7 @@ EdgeCounts count_edges(const TriangleMesh& mesh) {
 }
 
 bool is_plain_sheet(const TriangleMesh& mesh) {
-  std::vector<std::uint64_t> edges;   // directed, by the smaller end; the lowest bit tells the direction
+  std::vector<std::uint64_t> edges;  // directed, by the smaller end; the lowest bit tells the direction
   edges.reserve(3 * mesh.triangle.size());
   for (const auto& t : mesh.triangle) {
     if (!(cross(mesh.vertex[t.y] - mesh.vertex[t.x], mesh.vertex[t.z] - mesh.vertex[t.x]).z > 0.0)) return false;
@@ -60,7 +62,7 @@ bool is_plain_sheet(const TriangleMesh& mesh) {
     }
   }
   std::sort(edges.begin(), edges.end());
-  std::unordered_map<std::uint64_t, std::uint64_t> next;   // along the rim
+  std::unordered_map<std::uint64_t, std::uint64_t> next;  // along the rim
   for (std::size_t k = 0; k < edges.size(); ++k) {
     const std::uint64_t edge = edges[k] >> 1, a = edge >> 32, b = edge & 0xffffffffu;
     if (k + 1 < edges.size() && edges[k + 1] >> 1 == edge) {
@@ -102,7 +104,7 @@ std::size_t remove_flaps(TriangleSoup& triangles) {
     if (next - k == 2) same[order[k].first] = {order[k].second, order[k + 1].second};
   }
   if (same.empty()) return 0;
-  std::map<std::pair<std::size_t, std::size_t>, int> uses;   // of edges, by triangles that are not doubled
+  std::map<std::pair<std::size_t, std::size_t>, int> uses;  // of edges, by triangles that are not doubled
   for (const auto& t : triangles) {
     Key key{t[0], t[1], t[2]};
     std::sort(key.begin(), key.end());

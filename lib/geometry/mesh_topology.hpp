@@ -13,10 +13,10 @@ namespace gdesp::geometry {
 using TriangleSoup = std::vector<std::vector<std::size_t>>;
 
 struct EdgeCounts {
-  std::size_t border = 0;         ///< edges of one triangle
-  std::size_t non_manifold = 0;   ///< of more than two
-  std::size_t inconsistent = 0;   ///< of two that run along it the same way
-  Vec3d non_manifold_at;          ///< m, the westernmost such edge
+  std::size_t border = 0;        ///< edges of one triangle
+  std::size_t non_manifold = 0;  ///< of more than two
+  std::size_t inconsistent = 0;  ///< of two that run along it the same way
+  Vec3d non_manifold_at;         ///< m, the westernmost such edge
 };
 EdgeCounts count_edges(const TriangleMesh& mesh);
 

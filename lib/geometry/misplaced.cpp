@@ -10,9 +10,9 @@
 namespace gdesp::geometry {
 namespace {
 
-constexpr double nothing = 1e-6;      // of the volume
+constexpr double nothing = 1e-6;  // of the volume
 constexpr double worth_a_word = 0.02;
-constexpr double nearly_all = 0.9;    // of the ground, below a level
+constexpr double nearly_all = 0.9;  // of the ground, below a level
 
 std::string number(double v) {
   char text[40];
@@ -40,7 +40,8 @@ Box around(const std::vector<Vec3d>& points) {
 }
 
 std::string slide_text(const Layout& layout, std::size_t slide) {
-  return "slide \"" + layout.scene.slides[slide].name + "\" (" + span_text(bounds(layout.parts.slides[slide].mesh), layout.offset, true) + ")";
+  return "slide \"" + layout.scene.slides[slide].name + "\" (" +
+         span_text(bounds(layout.parts.slides[slide].mesh), layout.offset, true) + ")";
 }
 
 }  // namespace
@@ -49,19 +50,23 @@ std::string span_text(const Box& box, const Vec3d& offset, bool heights) {
   std::string text;
   for (int a = 0; a < (heights ? 3 : 2); ++a) {
     const std::string low = number(box.lower[a] + offset[a]), high = number(box.upper[a] + offset[a]);
-    text += (a == 0 ? "" : ", ") + std::string(1, "xyz"[a]) + " " + low + " m" + (low == high ? "" : " to " + high + " m");
+    text +=
+        (a == 0 ? "" : ", ") + std::string(1, "xyz"[a]) + " " + low + " m" + (low == high ? "" : " to " + high + " m");
   }
   return text;
 }
 
 void warn_of_measures_outside(const Layout& layout, Notes& notes) {
-  const Box domain{layout.domain.lower + layout.offset, layout.domain.upper + layout.offset};   // measures stay in the scene's coordinates
+  const Box domain{layout.domain.lower + layout.offset,
+                   layout.domain.upper + layout.offset};  // measures stay in the scene's coordinates
   const auto look = [&](const std::string& what, const Box& box) {
     if (!apart(box, domain, layout.scene.dimensions)) return;
-    notes.warnings.push_back(what + " (" + span_text(box, {}) + ") lies outside the domain (" + span_text(domain, {}) + "): it will read nothing");
+    notes.warnings.push_back(what + " (" + span_text(box, {}) + ") lies outside the domain (" + span_text(domain, {}) +
+                             "): it will read nothing");
   };
   for (const Gauge& g : layout.scene.gauges) look("gauge \"" + g.name + "\"", {g.at, g.at});
-  for (const Section& s : layout.scene.sections) look("section \"" + s.name + "\"", around({{s.from.x, s.from.y, 0.0}, {s.to.x, s.to.y, 0.0}}));
+  for (const Section& s : layout.scene.sections)
+    look("section \"" + s.name + "\"", around({{s.from.x, s.from.y, 0.0}, {s.to.x, s.to.y, 0.0}}));
   for (const Region& r : layout.scene.regions) {
     std::vector<Vec3d> corner;
     for (const Point2& p : r.polygon) corner.push_back({p.x, p.y, 0.0});
@@ -74,8 +79,9 @@ void refuse_slides_elsewhere(const Layout& layout) {
   if (is_empty(ground)) return;
   for (std::size_t k = 0; k < layout.parts.slides.size(); ++k) {
     if (!apart(bounds(layout.parts.slides[k].mesh), ground, layout.scene.dimensions)) continue;
-    throw Error(ErrorKind::input, slide_text(layout, k) + " lies outside the terrain (" + span_text(ground, layout.offset, true) +
-                                      "); are both in the same coordinates and the same unit (slide.scale, slide.translate)?");
+    throw Error(ErrorKind::input,
+                slide_text(layout, k) + " lies outside the terrain (" + span_text(ground, layout.offset, true) +
+                    "); are both in the same coordinates and the same unit (slide.scale, slide.translate)?");
   }
 }
 
@@ -84,11 +90,14 @@ void check_room(const Layout& layout, std::size_t slide, double free, double who
   const Box ground = bounds(layout.parts.terrain);
   const double share = whole > 0.0 ? free / whole : 0.0;
   if (share < nothing) {
-    throw Error(ErrorKind::input, what + " has no room: all of it lies inside the terrain, a wall or a body" +
-                                      (is_empty(ground) ? "" : "; the terrain spans " + span_text(ground, layout.offset, true)));
+    throw Error(ErrorKind::input,
+                what + " has no room: all of it lies inside the terrain, a wall or a body" +
+                    (is_empty(ground) ? "" : "; the terrain spans " + span_text(ground, layout.offset, true)));
   }
   if (share < 1.0 - worth_a_word) {
-    notes.warnings.push_back(what + ": " + percent(1.0 - share) + " of its volume lies inside the terrain, a wall or a body, or where there is no terrain, and is left out");
+    notes.warnings.push_back(
+        what + ": " + percent(1.0 - share) +
+        " of its volume lies inside the terrain, a wall or a body, or where there is no terrain, and is left out");
   }
 }
 
@@ -103,7 +112,8 @@ std::string level_hint(const FillSpace& space, double level) {
   }
   const double share = known > 0 ? static_cast<double>(below) / static_cast<double>(known) : 0.0;
   if (share < nearly_all) return {};
-  return "; the level of " + number(level + space.offset.z) + " m stands above " + percent(share) + " of the ground, whose highest point is at " + number(highest + space.offset.z) +
+  return "; the level of " + number(level + space.offset.z) + " m stands above " + percent(share) +
+         " of the ground, whose highest point is at " + number(highest + space.offset.z) +
          " m: are level and terrain in one unit and datum (terrain.vertical_scale, terrain.vertical_offset)?";
 }
 

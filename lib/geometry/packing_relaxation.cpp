@@ -14,16 +14,16 @@ namespace gdesp::geometry {
 namespace {
 
 constexpr double tolerance = packing_overlap;
-constexpr double inflation = 1.003;       // grains are moved apart as if they were this much larger
-constexpr double step = 0.35;             // share of the summed overlap added to the displacement in one iteration
-constexpr double memory = 0.96;           // of the last displacement
+constexpr double inflation = 1.003;  // grains are moved apart as if they were this much larger
+constexpr double step = 0.35;        // share of the summed overlap added to the displacement in one iteration
+constexpr double memory = 0.96;      // of the last displacement
 constexpr double wall_weight = 1.5;
-constexpr double longest_step = 0.1;      // of the diameter, in one iteration
+constexpr double longest_step = 0.1;  // of the diameter, in one iteration
 constexpr int most_iterations = 6000;
-constexpr int roll_call = 10;             // iterations
-constexpr int review = 150;               // iterations between looks at the progress
-constexpr double slow = 0.8;              // the sum of overlaps must fall below this share between two looks, else grains go
-constexpr double still = 1e-4;            // of the diameter, in one iteration: a free grain slower than this is halted
+constexpr int roll_call = 10;   // iterations
+constexpr int review = 150;     // iterations between looks at the progress
+constexpr double slow = 0.8;    // the sum of overlaps must fall below this share between two looks, else grains go
+constexpr double still = 1e-4;  // of the diameter, in one iteration: a free grain slower than this is halted
 
 /// How far, and in which direction, a grain sticks into a triangle; the side is told by the triangle's normal where the
 /// nearest point lies inside it.
@@ -41,7 +41,10 @@ Vec3d wall_push(const Vec3d& p, double radius, const TriangleTree& walls, std::i
   return distance > 0.0 ? away * ((radius - distance) / distance) : n * radius;
 }
 
-struct Push { Vec3d sum; double worst = 0.0; };   // worst: largest true overlap, of the smaller diameter
+struct Push {
+  Vec3d sum;
+  double worst = 0.0;
+};  // worst: largest true overlap, of the smaller diameter
 
 Push push_on(std::size_t i, const PackingState& s, const Vicinity& v, const TriangleTree& walls) {
   Push out;
@@ -85,7 +88,8 @@ void take_out_tightest(PackingState& s, const std::vector<double>& worst) {
   for (std::size_t i = 0; i < worst.size(); ++i) {
     if (worst[i] > tolerance) tight.push_back(i);
   }
-  std::sort(tight.begin(), tight.end(), [&](std::size_t a, std::size_t b) { return worst[a] != worst[b] ? worst[a] > worst[b] : a < b; });
+  std::sort(tight.begin(), tight.end(),
+            [&](std::size_t a, std::size_t b) { return worst[a] != worst[b] ? worst[a] > worst[b] : a < b; });
   tight.resize(std::min((tight.size() + 3) / 4, s.position.size() / 50 + 1));
   std::vector<bool> wanted(s.position.size(), true);
   for (const std::size_t i : tight) wanted[i] = false;
@@ -95,7 +99,10 @@ void take_out_tightest(PackingState& s, const std::vector<double>& worst) {
 /// The minimisation. Only grains that move, are pushed or have a neighbour that moved are looked at: the others sleep.
 class Relaxation {
  public:
-  Relaxation(PackingState& s, const TriangleTree& walls, double largest) : s_(s), walls_(walls), vicinity_(walls, largest, inflation) { restart(); }
+  Relaxation(PackingState& s, const TriangleTree& walls, double largest)
+      : s_(s), walls_(walls), vicinity_(walls, largest, inflation) {
+    restart();
+  }
 
   int run() {
     double last_sum = 1e300;
@@ -185,7 +192,9 @@ class Relaxation {
 
 }  // namespace
 
-int relax_overlaps(PackingState& s, const TriangleTree& walls, double largest) { return Relaxation(s, walls, largest).run(); }
+int relax_overlaps(PackingState& s, const TriangleTree& walls, double largest) {
+  return Relaxation(s, walls, largest).run();
+}
 
 void drop_misplaced(PackingState& s, const TriangleTree& walls,
                     const std::function<std::vector<bool>(const std::vector<Vec3d>&)>& contains, double largest) {

@@ -16,8 +16,9 @@ using GrainSettler = std::function<Settlement(GrainTable& grains, const Triangle
 
 struct SettledBed {
   Settlement settlement;
-  double fall = 0.0;            ///< m, mean of all grains
-  double porosity = 0.0;        ///< of the space below the grains' upper surface, seen by columns a third of the mean diameter apart
+  double fall = 0.0;  ///< m, mean of all grains
+  double porosity =
+      0.0;  ///< of the space below the grains' upper surface, seen by columns a third of the mean diameter apart
 };
 
 /// Settles the packing of a request. Grains that ended outside the space count as left out. Throws what the settler throws.

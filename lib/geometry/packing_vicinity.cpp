@@ -9,8 +9,8 @@
 namespace gdesp::geometry {
 namespace {
 
-constexpr double cells_per_grain = 32.0;     // at most; a box much larger than its grains gets wider cells
-constexpr std::size_t block_size = 1024;      // grains whose lists one thread finds at a time
+constexpr double cells_per_grain = 32.0;  // at most; a box much larger than its grains gets wider cells
+constexpr std::size_t block_size = 1024;  // grains whose lists one thread finds at a time
 
 }  // namespace
 
@@ -43,7 +43,8 @@ void join(const std::vector<std::vector<Item>>& block, std::vector<std::uint32_t
   for (std::size_t b = 0; b < block.size(); ++b) start[b + 1] = start[b] + block[b].size();
   other.resize(start.back());
 #pragma omp parallel for schedule(static) if (other.size() > worth_threads)
-  for (std::size_t b = 0; b < block.size(); ++b) std::copy(block[b].begin(), block[b].end(), other.begin() + static_cast<std::ptrdiff_t>(start[b]));
+  for (std::size_t b = 0; b < block.size(); ++b)
+    std::copy(block[b].begin(), block[b].end(), other.begin() + static_cast<std::ptrdiff_t>(start[b]));
   for (std::size_t i = 0; i + 1 < first.size(); ++i) first[i + 1] += first[i];
 }
 

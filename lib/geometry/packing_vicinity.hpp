@@ -19,17 +19,17 @@ class Vicinity {
   /// Whether a grain has moved so far since renew() that a partner may be missing.
   bool is_stale(const PackingState& state) const;
 
-  std::vector<std::uint32_t> first, other;        ///< grains near grain i: other[first[i]] to other[first[i + 1] - 1]
+  std::vector<std::uint32_t> first, other;  ///< grains near grain i: other[first[i]] to other[first[i + 1] - 1]
   std::vector<std::uint32_t> first_wall;
-  std::vector<std::int32_t> wall;                 ///< triangles near grain i, likewise
+  std::vector<std::int32_t> wall;  ///< triangles near grain i, likewise
 
  private:
   void find_pairs(const PackingState& state);
   void find_walls(const PackingState& state);
 
   const TriangleTree* walls_;
-  double inflation_, skin_, reach_;               // reach_: m, between centres of the two largest grains
-  std::vector<Vec3d> reference_;                  // positions at renew()
+  double inflation_, skin_, reach_;  // reach_: m, between centres of the two largest grains
+  std::vector<Vec3d> reference_;     // positions at renew()
 };
 
 }  // namespace gdesp::geometry

@@ -24,7 +24,8 @@ class PointCells {
     const double most = cells_per_point * static_cast<double>(points.size()) + 1000.0;
     for (;; width_ *= 1.25) {
       double cells = 1.0;
-      for (int a = 0; a < 3; ++a) n_[a] = static_cast<std::int64_t>(size[a] / width_) + 1, cells *= static_cast<double>(n_[a]);
+      for (int a = 0; a < 3; ++a)
+        n_[a] = static_cast<std::int64_t>(size[a] / width_) + 1, cells *= static_cast<double>(n_[a]);
       if (cells <= most) break;
     }
     start_.assign(static_cast<std::size_t>(n_[0] * n_[1] * n_[2]) + 1, 0);
@@ -77,7 +78,9 @@ class PointCells {
     return false;
   }
 
-  std::int64_t cell(int axis, double x) const { return static_cast<std::int64_t>(std::floor((x - origin_[axis]) / width_)); }
+  std::int64_t cell(int axis, double x) const {
+    return static_cast<std::int64_t>(std::floor((x - origin_[axis]) / width_));
+  }
   std::size_t index(const Vec3d& p) const {
     std::int64_t at[3];
     for (int a = 0; a < 3; ++a) at[a] = std::clamp<std::int64_t>(cell(a, p[a]), 0, n_[a] - 1);
@@ -88,7 +91,7 @@ class PointCells {
   Vec3d origin_;
   std::int64_t n_[3];
   std::vector<std::uint32_t> start_, member_;
-  std::vector<Vec3d> at_;   // in the order of member_
+  std::vector<Vec3d> at_;  // in the order of member_
 };
 
 }  // namespace gdesp::geometry

@@ -55,11 +55,12 @@ void reproject(std::vector<Vec3d>& points, const std::string& path, const Raster
   from.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   to.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   const std::unique_ptr<OGRCoordinateTransformation> transform(OGRCreateCoordinateTransformation(&from, &to));
-  if (!transform) throw Error(ErrorKind::input, path + ": no way from " + crs_name(o.crs) + " to " + crs_name(o.target_crs));
+  if (!transform)
+    throw Error(ErrorKind::input, path + ": no way from " + crs_name(o.crs) + " to " + crs_name(o.target_crs));
   for (auto& p : points) {
     if (!transform->Transform(1, &p.x, &p.y)) {
-      throw Error(ErrorKind::input, path + ": a point cannot be brought from " + crs_name(o.crs) + " to " + crs_name(o.target_crs) +
-                                        "; is the coordinate system right?");
+      throw Error(ErrorKind::input, path + ": a point cannot be brought from " + crs_name(o.crs) + " to " +
+                                        crs_name(o.target_crs) + "; is the coordinate system right?");
     }
   }
 }
@@ -70,7 +71,9 @@ std::vector<Vec3d> read_points(const std::string& path, const RasterOptions& o) 
   if (!std::filesystem::exists(path)) throw Error(ErrorKind::input, path + ": no such file");
   const std::string text = read_text(path);
   if (text.substr(0, 4096).find('\0') != std::string::npos)
-    throw Error(ErrorKind::input, path + ": is neither text with points nor a raster that can be read (GeoTIFF, ESRI ASCII, USGS DEM, XYZ grid are); is it damaged or cut short?");
+    throw Error(ErrorKind::input, path +
+                                      ": is neither text with points nor a raster that can be read (GeoTIFF, ESRI "
+                                      "ASCII, USGS DEM, XYZ grid are); is it damaged or cut short?");
   std::vector<Vec3d> points;
   std::size_t line_number = 0, at = 0;
   while (at < text.size()) {
@@ -82,10 +85,11 @@ std::vector<Vec3d> read_points(const std::string& path, const RasterOptions& o) 
     int count = 0;
     const bool numeric = numbers_of(line, v, count);
     if (numeric && count == 0) continue;
-    if ((!numeric || count < 3) && line_number == 1) continue;   // a header
+    if ((!numeric || count < 3) && line_number == 1) continue;  // a header
     if (!numeric || count < 3 || !std::isfinite(v[0] + v[1] + v[2])) {
-      throw Error(ErrorKind::input, path + ":" + std::to_string(line_number) + ": expected three numbers x y z, found \"" +
-                                        std::string(line.substr(0, 60)) + "\"");
+      throw Error(ErrorKind::input, path + ":" + std::to_string(line_number) +
+                                        ": expected three numbers x y z, found \"" + std::string(line.substr(0, 60)) +
+                                        "\"");
     }
     points.push_back({v[0], v[1], v[2]});
   }

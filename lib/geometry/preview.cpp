@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/preview.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <unistd.h>
 
 #include "core/error.hpp"
 #include "geometry/triangle_mesh.hpp"
@@ -16,7 +17,10 @@ namespace {
 
 enum Kind : std::int32_t { fluid_kind = 0, wall_kind = 1, grain_kind = 2, body_kind = 3 };
 
-struct Sample { Vec3d at; std::int32_t kind; };
+struct Sample {
+  Vec3d at;
+  std::int32_t kind;
+};
 
 std::vector<Sample> all_particles(const Case& c) {
   std::vector<Sample> out;
@@ -42,12 +46,15 @@ void write_points(const Case& c, const std::string& path) {
   write_vtp(path, content);
 }
 
-struct Colour { int r, g, b; };
+struct Colour {
+  int r, g, b;
+};
 
 /// A picture of coloured cells, axes in scene coordinates.
 class Image {
  public:
-  Image(double u0, double v0, double u1, double v1, double cell) : u0_(u0 - 0.5 * cell), v0_(v0 - 0.5 * cell), cell_(cell) {
+  Image(double u0, double v0, double u1, double v1, double cell)
+      : u0_(u0 - 0.5 * cell), v0_(v0 - 0.5 * cell), cell_(cell) {
     nu_ = std::max(1, static_cast<int>((u1 - u0_) / cell) + 1);
     nv_ = std::max(1, static_cast<int>((v1 - v0_) / cell) + 1);
     colour_.assign(static_cast<std::size_t>(nu_) * nv_, {255, 255, 255});
@@ -88,10 +95,15 @@ Colour colour_of(const Sample& s, const Box& box) {
   return {grey, grey, grey - 10};
 }
 
-double cell_size(double width, double height, double dp) { return std::max(1.01 * dp, std::max(width, height) / 500.0); }
+double cell_size(double width, double height, double dp) {
+  return std::max(1.01 * dp, std::max(width, height) / 500.0);
+}
 
 /// The plane of the section: through the grains' middle, from them towards the water; without grains along the water's longer side.
-struct SectionPlane { bool along_x; double at; };
+struct SectionPlane {
+  bool along_x;
+  double at;
+};
 SectionPlane section_plane(const Case& c) {
   Box water = empty_box(), grains = empty_box();
   for (const auto& p : c.fluid.position) extend(water, p);
@@ -104,7 +116,7 @@ SectionPlane section_plane(const Case& c) {
   return {along_x, 0.5 * (through.lower[across] + through.upper[across])};
 }
 
-constexpr double picture_width = 1150.0, picture_height = 520.0;   // px, room of one plot inside its labels
+constexpr double picture_width = 1150.0, picture_height = 520.0;  // px, room of one plot inside its labels
 
 /// Distance of an axis' labels (m): the smallest of 1, 2, 5 times a power of ten at which labels of this size do not touch.
 double label_step(double length, double pixels, double label_pixels) {
@@ -118,12 +130,14 @@ double label_step(double length, double pixels, double label_pixels) {
 
 /// Both axes at one scale, with as many labels as have room; coordinates in full, as large as UTM's.
 void set_axes(FILE* out, const char* u_name, const char* v_name, double u0, double v0, double u1, double v1) {
-  const double scale = std::min(picture_width / std::max(u1 - u0, 1e-300), picture_height / std::max(v1 - v0, 1e-300));   // px per m
+  const double scale =
+      std::min(picture_width / std::max(u1 - u0, 1e-300), picture_height / std::max(v1 - v0, 1e-300));  // px per m
   const double digits = std::floor(std::log10(std::max({std::abs(u0), std::abs(u1), 1.0}))) + 1.0;
   const double decimals = std::max(0.0, std::ceil(-std::log10((u1 - u0) / 10.0)));
   const double u_step = label_step(u1 - u0, (u1 - u0) * scale, 9.0 * (digits + decimals + 3.0));
   const double v_step = label_step(v1 - v0, (v1 - v0) * scale, 24.0);
-  std::fprintf(out, "set size ratio -1\nset xlabel '%s [m]'\nset ylabel '%s [m]'\nset xtics %.9g\nset ytics %.9g\n", u_name, v_name, u_step, v_step);
+  std::fprintf(out, "set size ratio -1\nset xlabel '%s [m]'\nset ylabel '%s [m]'\nset xtics %.9g\nset ytics %.9g\n",
+               u_name, v_name, u_step, v_step);
 }
 
 void draw(FILE* out, const Case& c, const std::string& path) {
@@ -136,8 +150,10 @@ void draw(FILE* out, const Case& c, const std::string& path) {
   const double half = 0.75 * c.scene.dp;
   const double plan_cell = cell_size(box.upper.x - box.lower.x, box.upper.y - box.lower.y, c.scene.dp);
   const double side_cell = cell_size(box.upper[u] - box.lower[u], box.upper.z - box.lower.z, c.scene.dp);
-  Image plan(box.lower.x + c.offset.x, box.lower.y + c.offset.y, box.upper.x + c.offset.x, box.upper.y + c.offset.y, plan_cell);
-  Image side(box.lower[u] + c.offset[u], box.lower.z + c.offset.z, box.upper[u] + c.offset[u], box.upper.z + c.offset.z, side_cell);
+  Image plan(box.lower.x + c.offset.x, box.lower.y + c.offset.y, box.upper.x + c.offset.x, box.upper.y + c.offset.y,
+             plan_cell);
+  Image side(box.lower[u] + c.offset[u], box.lower.z + c.offset.z, box.upper[u] + c.offset[u], box.upper.z + c.offset.z,
+             side_cell);
   for (const auto& s : particles) {
     const Vec3d p = s.at + c.offset;
     const Colour colour = colour_of(s, box);
@@ -146,15 +162,20 @@ void draw(FILE* out, const Case& c, const std::string& path) {
   }
   const char* const name = plane.along_x ? "x" : "y";
   const Box shown{box.lower + c.offset, box.upper + c.offset};
-  std::fprintf(out, "set terminal pngcairo size 1400,%d\nset output '%s'\nunset key\nset format '%%.10g'\n", c.scene.dimensions == 2 ? 700 : 1500, path.c_str());
+  std::fprintf(out, "set terminal pngcairo size 1400,%d\nset output '%s'\nunset key\nset format '%%.10g'\n",
+               c.scene.dimensions == 2 ? 700 : 1500, path.c_str());
   if (c.scene.dimensions == 3) {
     std::fputs("set multiplot layout 2,1\n", out);
     set_axes(out, "x", "y", shown.lower.x, shown.lower.y, shown.upper.x, shown.upper.y);
-    std::fputs("set title 'from above: ground grey, water blue, grains brown, bodies red'\nplot '-' using 1:2:3:4:5 with rgbimage\n", out);
+    std::fputs(
+        "set title 'from above: ground grey, water blue, grains brown, bodies red'\nplot '-' using 1:2:3:4:5 with "
+        "rgbimage\n",
+        out);
     plan.print(out);
   }
   set_axes(out, name, "z", shown.lower[u], shown.lower.z, shown.upper[u], shown.upper.z);
-  std::fprintf(out, "set title 'vertical section at %s = %.8g m'\nplot '-' using 1:2:3:4:5 with rgbimage\n", plane.along_x ? "y" : "x", plane.at + c.offset[across]);
+  std::fprintf(out, "set title 'vertical section at %s = %.8g m'\nplot '-' using 1:2:3:4:5 with rgbimage\n",
+               plane.along_x ? "y" : "x", plane.at + c.offset[across]);
   side.print(out);
   if (c.scene.dimensions == 3) std::fputs("unset multiplot\n", out);
 }
@@ -165,7 +186,8 @@ void write_preview(const Case& c, const std::string& path) {
   if (std::filesystem::path(path).extension() == ".vtp") return write_points(c, path);
   const std::string aside = path + ".part-" + std::to_string(::getpid());
   FILE* gnuplot = ::popen("gnuplot 2>/dev/null", "w");
-  if (!gnuplot) throw Error(ErrorKind::resource, "gnuplot cannot be started; it draws the preview (package gnuplot-nox)");
+  if (!gnuplot)
+    throw Error(ErrorKind::resource, "gnuplot cannot be started; it draws the preview (package gnuplot-nox)");
   draw(gnuplot, c, aside);
   const int status = ::pclose(gnuplot);
   std::error_code failed;
@@ -173,7 +195,8 @@ void write_preview(const Case& c, const std::string& path) {
   if (status != 0 || failed) {
     std::error_code ignored;
     std::filesystem::remove(aside, ignored);
-    throw Error(ErrorKind::resource, path + ": the preview could not be drawn (gnuplot ended with status " + std::to_string(status) + ")");
+    throw Error(ErrorKind::resource,
+                path + ": the preview could not be drawn (gnuplot ended with status " + std::to_string(status) + ")");
   }
 }
 

@@ -18,8 +18,8 @@ class Random {
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
     return z ^ (z >> 31);
   }
-  double unit() { return static_cast<double>(bits() >> 11) * 0x1p-53; }    ///< [0, 1)
-  double signed_unit() { return 2.0 * unit() - 1.0; }                      ///< [-1, 1)
+  double unit() { return static_cast<double>(bits() >> 11) * 0x1p-53; }  ///< [0, 1)
+  double signed_unit() { return 2.0 * unit() - 1.0; }                    ///< [-1, 1)
   std::size_t below(std::size_t n) { return static_cast<std::size_t>(bits() % n); }
   /// Standard normal (Box and Muller 1958).
   double normal() {

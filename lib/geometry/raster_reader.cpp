@@ -18,7 +18,7 @@
 namespace gdesp::geometry {
 namespace {
 
-constexpr double most_nodes = 4.0e8;   // 3.2 GB of elevations
+constexpr double most_nodes = 4.0e8;  // 3.2 GB of elevations
 
 struct CloseDataset {
   void operator()(GDALDataset* d) const { GDALClose(d); }
@@ -26,8 +26,9 @@ struct CloseDataset {
 using Dataset = std::unique_ptr<GDALDataset, CloseDataset>;
 
 /// Formats that hold elevations; the rest of GDAL's drivers (databases, network services) stay shut.
-const char* const terrain_drivers[] = {"GTiff", "COG", "AAIGrid", "USGSDEM", "XYZ", "SRTMHGT", "HFA", "EHdr", "ENVI", "GSAG",
-                                       "GSBG", "GS7BG", "GRASSASCIIGrid", "netCDF", "DTED", "SDTS", "VRT", "BT", nullptr};
+const char* const terrain_drivers[] = {"GTiff", "COG",  "AAIGrid", "USGSDEM", "XYZ",   "SRTMHGT",        "HFA",
+                                       "EHdr",  "ENVI", "GSAG",    "GSBG",    "GS7BG", "GRASSASCIIGrid", "netCDF",
+                                       "DTED",  "SDTS", "VRT",     "BT",      nullptr};
 
 Dataset open(const std::string& path) {
   return Dataset(GDALDataset::Open(gdal_path(path).c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, terrain_drivers));
@@ -37,8 +38,10 @@ Dataset open(const std::string& path) {
   throw Error(ErrorKind::input, path + ": " + why);
 }
 
-Dataset warp(Dataset source, const std::string& path, const std::string& from, const std::string& to, const QuietGdal& quiet) {
-  std::vector<std::string> words = {"-of", "MEM", "-r", "bilinear", "-ot", "Float64", "-dstnodata", "nan", "-t_srs", to};
+Dataset warp(Dataset source, const std::string& path, const std::string& from, const std::string& to,
+             const QuietGdal& quiet) {
+  std::vector<std::string> words = {"-of",     "MEM",        "-r",  "bilinear", "-ot",
+                                    "Float64", "-dstnodata", "nan", "-t_srs",   to};
   if (!from.empty()) words.insert(words.end(), {"-s_srs", from});
   std::vector<char*> argv;
   argv.reserve(words.size() + 1);
@@ -62,11 +65,13 @@ void check_size(GDALDataset& data, const std::string& path) {
   const auto bytes = static_cast<double>(std::filesystem::file_size(path, failed));
   if (failed || driver == "VRT") return;
   const bool gzipped = std::filesystem::path(path).extension() == ".gz";
-  const bool text = driver == "AAIGrid" || driver == "GSAG" || driver == "GRASSASCIIGrid" || driver == "XYZ" || driver == "USGSDEM";
+  const bool text =
+      driver == "AAIGrid" || driver == "GSAG" || driver == "GRASSASCIIGrid" || driver == "XYZ" || driver == "USGSDEM";
   const double most = text ? (bytes + 64.0) * (gzipped ? 500.0 : 0.5) + 1.0 : (bytes + 64.0) * 4000.0;
   if (nodes > most) {
-    refuse(path, "is damaged or cut short: it states " + std::to_string(data.GetRasterXSize()) + " x " + std::to_string(data.GetRasterYSize()) +
-                     " nodes, which a file of " + std::to_string(static_cast<long long>(bytes)) + " bytes cannot hold");
+    refuse(path, "is damaged or cut short: it states " + std::to_string(data.GetRasterXSize()) + " x " +
+                     std::to_string(data.GetRasterYSize()) + " nodes, which a file of " +
+                     std::to_string(static_cast<long long>(bytes)) + " bytes cannot hold");
   }
 }
 
@@ -80,9 +85,11 @@ Heightfield read_band(GDALDataset& data, const std::string& path, const QuietGda
   const int nx = data.GetRasterXSize(), ny = data.GetRasterYSize();
   if (data.GetRasterCount() < 1) refuse(path, "the raster has no band");
   if (static_cast<double>(nx) * ny > most_nodes) {
-    refuse(path, "has " + std::to_string(nx) + " x " + std::to_string(ny) + " nodes, more than 4e8; cut out the part needed");
+    refuse(path,
+           "has " + std::to_string(nx) + " x " + std::to_string(ny) + " nodes, more than 4e8; cut out the part needed");
   }
-  if (g[1] == 0.0 || g[5] == 0.0 || !std::isfinite(g[0] + g[1] + g[3] + g[5])) refuse(path, "the cell size is zero or not a number");
+  if (g[1] == 0.0 || g[5] == 0.0 || !std::isfinite(g[0] + g[1] + g[3] + g[5]))
+    refuse(path, "the cell size is zero or not a number");
   Heightfield f;
   f.nx = nx;
   f.ny = ny;
@@ -97,7 +104,8 @@ Heightfield read_band(GDALDataset& data, const std::string& path, const QuietGda
   }
   if (g[5] < 0) {
     for (int j = 0; j < ny / 2; ++j) {
-      std::swap_ranges(f.z.begin() + static_cast<std::ptrdiff_t>(j) * nx, f.z.begin() + static_cast<std::ptrdiff_t>(j + 1) * nx,
+      std::swap_ranges(f.z.begin() + static_cast<std::ptrdiff_t>(j) * nx,
+                       f.z.begin() + static_cast<std::ptrdiff_t>(j + 1) * nx,
                        f.z.begin() + static_cast<std::ptrdiff_t>(ny - 1 - j) * nx);
     }
   }
@@ -111,7 +119,8 @@ Heightfield read_band(GDALDataset& data, const std::string& path, const QuietGda
   const double nodata = band->GetNoDataValue(&has_nodata);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (auto& z : f.z) {
-    if (!std::isfinite(z) || (has_nodata && (z == nodata || static_cast<float>(z) == static_cast<float>(nodata)))) z = nan;
+    if (!std::isfinite(z) || (has_nodata && (z == nodata || static_cast<float>(z) == static_cast<float>(nodata))))
+      z = nan;
   }
   return f;
 }
@@ -156,7 +165,7 @@ Raster read(Dataset data, const std::string& path, const RasterOptions& options,
 
 std::optional<Raster> read_if_raster(const std::string& path, const RasterOptions& options) {
   gdal_start();
-  const QuietGdal quiet;   // outlives the data set: closing may warn, too
+  const QuietGdal quiet;  // outlives the data set: closing may warn, too
   Dataset data = open(path);
   if (!data) return std::nullopt;
   return read(std::move(data), path, options, quiet);
@@ -165,7 +174,8 @@ std::optional<Raster> read_if_raster(const std::string& path, const RasterOption
 Raster read_raster(const std::string& path, const RasterOptions& options) {
   if (!std::filesystem::exists(path)) refuse(path, "no such file");
   std::optional<Raster> raster = read_if_raster(path, options);
-  if (!raster) refuse(path, "is no raster that can be read (GeoTIFF, ESRI ASCII, USGS DEM, XYZ grid are), or it is damaged");
+  if (!raster)
+    refuse(path, "is no raster that can be read (GeoTIFF, ESRI ASCII, USGS DEM, XYZ grid are), or it is damaged");
   return std::move(*raster);
 }
 
@@ -179,13 +189,16 @@ Heightfield merge(const std::vector<Heightfield>& tiles) {
     if (t.dx * t.dy < out.dx * out.dy) out.dx = t.dx, out.dy = t.dy, out.x0 = t.x0, out.y0 = t.y0;
   }
   // Keep the finest tile's nodes where they are.
-  const double west = std::ceil((out.x0 - box.lower.x) / out.dx - 1e-6), south = std::ceil((out.y0 - box.lower.y) / out.dy - 1e-6);
+  const double west = std::ceil((out.x0 - box.lower.x) / out.dx - 1e-6),
+               south = std::ceil((out.y0 - box.lower.y) / out.dy - 1e-6);
   out.x0 -= west * out.dx;
   out.y0 -= south * out.dy;
-  const double nx = std::floor((box.upper.x - out.x0) / out.dx + 1e-6) + 1, ny = std::floor((box.upper.y - out.y0) / out.dy + 1e-6) + 1;
+  const double nx = std::floor((box.upper.x - out.x0) / out.dx + 1e-6) + 1,
+               ny = std::floor((box.upper.y - out.y0) / out.dy + 1e-6) + 1;
   if (nx * ny > most_nodes) {
     throw Error(ErrorKind::input, "the tiles together span " + std::to_string(static_cast<long long>(nx)) + " x " +
-                                      std::to_string(static_cast<long long>(ny)) + " nodes, more than 4e8; are they of one coordinate system?");
+                                      std::to_string(static_cast<long long>(ny)) +
+                                      " nodes, more than 4e8; are they of one coordinate system?");
   }
   out.nx = static_cast<int>(nx);
   out.ny = static_cast<int>(ny);
@@ -195,8 +208,8 @@ Heightfield merge(const std::vector<Heightfield>& tiles) {
       const double x = out.x0 + i * out.dx, y = out.y0 + j * out.dy;
       for (const auto& t : tiles) {
         const double u = std::round((x - t.x0) / t.dx), v = std::round((y - t.y0) / t.dy);
-        const bool on_node = std::abs(t.x0 + u * t.dx - x) < 1e-6 * t.dx && std::abs(t.y0 + v * t.dy - y) < 1e-6 * t.dy &&
-                             u >= 0 && v >= 0 && u < t.nx && v < t.ny;
+        const bool on_node = std::abs(t.x0 + u * t.dx - x) < 1e-6 * t.dx &&
+                             std::abs(t.y0 + v * t.dy - y) < 1e-6 * t.dy && u >= 0 && v >= 0 && u < t.nx && v < t.ny;
         const double z = on_node ? t.at(static_cast<int>(u), static_cast<int>(v)) : sample(t, x, y);
         if (std::isfinite(z)) {
           out.at(i, j) = z;

@@ -22,9 +22,9 @@ struct RasterOptions {
 
 struct Raster {
   Heightfield field;
-  std::string crs;               ///< WKT; empty when unknown
-  std::string driver;            ///< GDAL's short name of the format
-  std::vector<std::string> warnings;   ///< "PATH: ...", of the library that reads
+  std::string crs;                    ///< WKT; empty when unknown
+  std::string driver;                 ///< GDAL's short name of the format
+  std::vector<std::string> warnings;  ///< "PATH: ...", of the library that reads
 };
 
 /// Reads one raster; nullopt where GDAL recognises none (the extension is not looked at). Throws Error(input): no data, rotated grid,

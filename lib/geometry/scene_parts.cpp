@@ -23,14 +23,16 @@ Box widened(Box box, const Scene& scene) {
   return box;
 }
 
-SolidPart solid_of(const Shape& shape, const std::string& name, const Scene& scene, TerrainSheet& terrain, Notes& notes) {
+SolidPart solid_of(const Shape& shape, const std::string& name, const Scene& scene, TerrainSheet& terrain,
+                   Notes& notes) {
   SolidPart part;
   part.name = name;
   if (shape.box) {
     part.box = widened(*shape.box, scene);
     part.mesh = box_mesh(*part.box);
   } else if (!shape.mesh.empty()) {
-    part.mesh = read_mesh(shape.mesh, {shape.mesh_size > 0.0 ? shape.mesh_size : 2.0 * scene.dp, shape.scale, shape.translate});
+    part.mesh =
+        read_mesh(shape.mesh, {shape.mesh_size > 0.0 ? shape.mesh_size : 2.0 * scene.dp, shape.scale, shape.translate});
     require_solid(part.mesh, shape.mesh, notes.done);
   } else {
     part.mesh = layered_body(shape, name, scene, terrain, notes);
@@ -50,11 +52,13 @@ WallPart wall_of(const Wall& wall, const Scene& scene, Notes& notes) {
     if (scene.dimensions == 2) part.open.insert(part.open.end(), {"y-", "y+"});
     return part;
   }
-  part.mesh = read_mesh(wall.mesh, {wall.mesh_size > 0.0 ? wall.mesh_size : 2.0 * scene.dp, wall.scale, wall.translate});
+  part.mesh =
+      read_mesh(wall.mesh, {wall.mesh_size > 0.0 ? wall.mesh_size : 2.0 * scene.dp, wall.scale, wall.translate});
   TriangleMesh mended = part.mesh;
   const MeshReport report = check_and_repair(mended, MeshPurpose::any);
   if (report.verdict == MeshVerdict::refused || (!report.closed && !report.sheet)) {
-    throw Error(ErrorKind::input, wall.mesh + ": is neither a closed solid nor a sheet that can be made solid downwards: " +
+    throw Error(ErrorKind::input, wall.mesh +
+                                      ": is neither a closed solid nor a sheet that can be made solid downwards: " +
                                       (report.refusal.empty() ? "it is open and folded" : report.refusal));
   }
   part.mesh = std::move(mended);
@@ -76,8 +80,10 @@ void list_shape(const Shape& s, std::vector<std::string>& files) {
 std::vector<std::string> all_files(const Scene& scene) {
   std::vector<std::string> files = scene.terrain.files;
   if (!scene.terrain.bathymetry.empty()) files.push_back(scene.terrain.bathymetry);
-  for (const auto& w : scene.walls) if (!w.mesh.empty()) files.push_back(w.mesh);
-  for (const auto& f : scene.fluid.fill) if (!f.mesh.empty()) files.push_back(f.mesh);
+  for (const auto& w : scene.walls)
+    if (!w.mesh.empty()) files.push_back(w.mesh);
+  for (const auto& f : scene.fluid.fill)
+    if (!f.mesh.empty()) files.push_back(f.mesh);
   for (const auto& s : scene.slides) {
     list_shape(s.shape, files);
     if (!s.motion_csv.empty()) files.push_back(s.motion_csv);
@@ -119,12 +125,14 @@ SceneParts load_parts(const Scene& scene, Notes& notes) {
   parts.files = all_files(scene);
   TerrainSheet terrain;
   if (!scene.terrain.files.empty()) terrain = load_terrain(scene, notes);
-  for (const auto& s : scene.slides) parts.slides.push_back(solid_of(s.shape, "slide \"" + s.name + "\"", scene, terrain, notes));
+  for (const auto& s : scene.slides)
+    parts.slides.push_back(solid_of(s.shape, "slide \"" + s.name + "\"", scene, terrain, notes));
   for (const auto& m : scene.moving) {
     parts.moving.push_back(solid_of(m.shape, m.kind + " \"" + m.name + "\"", scene, terrain, notes));
     parts.moving.back().no_slip = m.condition == "no-slip";
   }
-  for (const auto& f : scene.floating) parts.floating.push_back(solid_of(f.shape, "floating \"" + f.name + "\"", scene, terrain, notes));
+  for (const auto& f : scene.floating)
+    parts.floating.push_back(solid_of(f.shape, "floating \"" + f.name + "\"", scene, terrain, notes));
   for (const auto& w : scene.walls) parts.walls.push_back(wall_of(w, scene, notes));
   for (std::size_t k = 0; k < scene.fluid.fill.size(); ++k) {
     SolidPart part;

@@ -13,7 +13,7 @@ namespace gdesp::geometry {
 
 /// What was found and done, for people; no order but that of events.
 struct Notes {
-  std::vector<std::string> done;      ///< "slide.stl: 3 holes closed (largest 0.4 m)"
+  std::vector<std::string> done;  ///< "slide.stl: 3 holes closed (largest 0.4 m)"
   std::vector<std::string> warnings;
 };
 
@@ -40,14 +40,14 @@ struct WallPart {
 
 /// Everything the scene is made of. Indices of bodies follow the scene's lists.
 struct SceneParts {
-  TriangleMesh terrain;               ///< sheet, normals up; empty without terrain
-  double terrain_spacing = 0.0;       ///< m, mean edge of its triangles seen from above
-  std::string terrain_crs;            ///< WKT, empty when unknown
+  TriangleMesh terrain;          ///< sheet, normals up; empty without terrain
+  double terrain_spacing = 0.0;  ///< m, mean edge of its triangles seen from above
+  std::string terrain_crs;       ///< WKT, empty when unknown
   bool terrain_no_slip = false;
   std::vector<WallPart> walls;
   std::vector<SolidPart> moving, slides, floating;
-  std::vector<SolidPart> fluid;       ///< closed meshes to be filled, by fill (empty mesh for other kinds)
-  std::vector<std::string> files;     ///< every file that was read
+  std::vector<SolidPart> fluid;    ///< closed meshes to be filled, by fill (empty mesh for other kinds)
+  std::vector<std::string> files;  ///< every file that was read
 };
 
 /// Reads and checks every file of the scene, carves the terrain where a slide is part of it, builds the shapes.

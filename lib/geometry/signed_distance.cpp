@@ -55,23 +55,30 @@ struct Facet {
 
 /// The nearest triangle of each lattice point of a block of 8 x 8 columns.
 struct Block {
-  std::int32_t i0 = 0, j0 = 0, k0 = 0, height = 0;   ///< first column and point; points per column
-  std::vector<float> squared;                        ///< m2, of the nearest triangle; column by column
-  std::vector<std::int32_t> nearest;                 ///< -1: none within the band
-  std::size_t at(int i, int j, std::int32_t k) const { return static_cast<std::size_t>((i - i0) * 8 + (j - j0)) * static_cast<std::size_t>(height) + static_cast<std::size_t>(k - k0); }
+  std::int32_t i0 = 0, j0 = 0, k0 = 0, height = 0;  ///< first column and point; points per column
+  std::vector<float> squared;                       ///< m2, of the nearest triangle; column by column
+  std::vector<std::int32_t> nearest;                ///< -1: none within the band
+  std::size_t at(int i, int j, std::int32_t k) const {
+    return static_cast<std::size_t>((i - i0) * 8 + (j - j0)) * static_cast<std::size_t>(height) +
+           static_cast<std::size_t>(k - k0);
+  }
 };
 
-struct Range { std::int32_t first, last; };
+struct Range {
+  std::int32_t first, last;
+};
 
 /// Lattice points along an axis within `reach` of [low, high], and within the box asked for.
 Range range_of(const BandRequest& r, int axis, double low, double high, double reach) {
   if (r.lattice.dimensions == 2 && axis == 1) return {0, low - reach <= 0.0 && high + reach >= 0.0 ? 0 : -1};
-  return {std::max(r.lower[axis], r.lattice.first_at_or_above(axis, low - reach)), std::min(r.upper[axis], r.lattice.last_at_or_below(axis, high + reach))};
+  return {std::max(r.lower[axis], r.lattice.first_at_or_above(axis, low - reach)),
+          std::min(r.upper[axis], r.lattice.last_at_or_below(axis, high + reach))};
 }
 
 /// Lets one triangle compete for the points of a block.
 void visit_block(const Facet& f, std::int32_t triangle, const BandRequest& r, double reach, Block& block) {
-  const Range is = range_of(r, 0, f.box.lower.x, f.box.upper.x, reach), js = range_of(r, 1, f.box.lower.y, f.box.upper.y, reach);
+  const Range is = range_of(r, 0, f.box.lower.x, f.box.upper.x, reach),
+              js = range_of(r, 1, f.box.lower.y, f.box.upper.y, reach);
   const Range ks = range_of(r, 2, f.box.lower.z, f.box.upper.z, reach);
   for (int i = std::max(is.first, block.i0); i <= std::min(is.last, block.i0 + 7); ++i) {
     for (int j = std::max(js.first, block.j0); j <= std::min(js.last, block.j0 + 7); ++j) {
@@ -99,7 +106,7 @@ void visit_block(const Facet& f, std::int32_t triangle, const BandRequest& r, do
 
 /// Triangles by the blocks that their surroundings touch: those of block b are [first[b], first[b + 1]).
 struct BlockLists {
-  std::int32_t i0 = 0, j0 = 0, ni = 0, nj = 0;       ///< in blocks
+  std::int32_t i0 = 0, j0 = 0, ni = 0, nj = 0;  ///< in blocks
   std::vector<std::size_t> first;
   std::vector<std::int32_t> triangle;
 };
@@ -110,21 +117,26 @@ BlockLists list_blocks(const std::vector<Facet>& facets, const BandRequest& r, d
   out.ni = std::max(0, (r.upper.x >> 3) - out.i0 + 1), out.nj = std::max(0, (r.upper.y >> 3) - out.j0 + 1);
   out.first.assign(static_cast<std::size_t>(out.ni) * static_cast<std::size_t>(out.nj) + 1, 0);
   const auto each = [&](const Facet& f, const auto& use) {
-    const Range is = range_of(r, 0, f.box.lower.x, f.box.upper.x, reach), js = range_of(r, 1, f.box.lower.y, f.box.upper.y, reach);
+    const Range is = range_of(r, 0, f.box.lower.x, f.box.upper.x, reach),
+                js = range_of(r, 1, f.box.lower.y, f.box.upper.y, reach);
     if (is.first > is.last || js.first > js.last) return;
     for (int i = is.first >> 3; i <= is.last >> 3; ++i) {
-      for (int j = js.first >> 3; j <= js.last >> 3; ++j) use(static_cast<std::size_t>(i - out.i0) * static_cast<std::size_t>(out.nj) + static_cast<std::size_t>(j - out.j0));
+      for (int j = js.first >> 3; j <= js.last >> 3; ++j)
+        use(static_cast<std::size_t>(i - out.i0) * static_cast<std::size_t>(out.nj) +
+            static_cast<std::size_t>(j - out.j0));
     }
   };
   for (const auto& f : facets) each(f, [&](std::size_t b) { ++out.first[b + 1]; });
   for (std::size_t b = 0; b + 1 < out.first.size(); ++b) out.first[b + 1] += out.first[b];
   out.triangle.resize(out.first.back());
   std::vector<std::size_t> next(out.first.begin(), out.first.end() - 1);
-  for (std::size_t t = 0; t < facets.size(); ++t) each(facets[t], [&](std::size_t b) { out.triangle[next[b]++] = static_cast<std::int32_t>(t); });
+  for (std::size_t t = 0; t < facets.size(); ++t)
+    each(facets[t], [&](std::size_t b) { out.triangle[next[b]++] = static_cast<std::int32_t>(t); });
   return out;
 }
 
-Block fill_block(const BlockLists& lists, std::size_t b, const std::vector<Facet>& facets, const BandRequest& r, double reach) {
+Block fill_block(const BlockLists& lists, std::size_t b, const std::vector<Facet>& facets, const BandRequest& r,
+                 double reach) {
   Block block;
   block.i0 = (lists.i0 + static_cast<std::int32_t>(b / static_cast<std::size_t>(lists.nj))) * 8;
   block.j0 = (lists.j0 + static_cast<std::int32_t>(b % static_cast<std::size_t>(lists.nj))) * 8;
@@ -197,7 +209,8 @@ Piece measure_block(const Block& block, const WallSurfaces& walls, const BandReq
   for (std::size_t at = 0; at < block.nearest.size(); ++at) {
     if (block.nearest[at] < 0) continue;
     const auto column = static_cast<std::int32_t>(at / static_cast<std::size_t>(block.height));
-    const Index3 where{block.i0 + column / 8, block.j0 + column % 8, block.k0 + static_cast<std::int32_t>(at % static_cast<std::size_t>(block.height))};
+    const Index3 where{block.i0 + column / 8, block.j0 + column % 8,
+                       block.k0 + static_cast<std::int32_t>(at % static_cast<std::size_t>(block.height))};
     const BandPoint point = measure(walls, r, where, block.nearest[at]);
     if (std::abs(point.distance) <= limit) piece.points.push_back(point);
   }
@@ -215,8 +228,11 @@ std::vector<BandPoint> in_order(std::vector<Piece>& pieces) {
     }
   }
   if (low.x > high.x) return {};
-  const std::size_t ny = static_cast<std::size_t>(high.y - low.y) + 1, columns = (static_cast<std::size_t>(high.x - low.x) + 1) * ny;
-  const auto column = [&](const BandPoint& p) { return static_cast<std::size_t>(p.at.x - low.x) * ny + static_cast<std::size_t>(p.at.y - low.y); };
+  const std::size_t ny = static_cast<std::size_t>(high.y - low.y) + 1,
+                    columns = (static_cast<std::size_t>(high.x - low.x) + 1) * ny;
+  const auto column = [&](const BandPoint& p) {
+    return static_cast<std::size_t>(p.at.x - low.x) * ny + static_cast<std::size_t>(p.at.y - low.y);
+  };
   std::vector<std::size_t> next(columns + 1, 0);
   for (const auto& piece : pieces) {
     for (const auto& p : piece.points) ++next[column(p) + 1];
@@ -225,12 +241,13 @@ std::vector<BandPoint> in_order(std::vector<Piece>& pieces) {
   std::vector<BandPoint> out(next[columns]);
   for (auto& piece : pieces) {
     for (const auto& p : piece.points) out[next[column(p)]++] = p;
-    piece.points = {};   // never all of it twice
+    piece.points = {};  // never all of it twice
   }
   return out;
 }
 
-void write_grids(const std::string& path, const openvdb::FloatGrid::Ptr& distance, const openvdb::Int32Grid::Ptr& material, const Lattice& lattice, const Vec3d& offset) {
+void write_grids(const std::string& path, const openvdb::FloatGrid::Ptr& distance,
+                 const openvdb::Int32Grid::Ptr& material, const Lattice& lattice, const Vec3d& offset) {
   auto transform = openvdb::math::Transform::createLinearTransform(lattice.dp);
   const Vec3d first = lattice.point({0, 0, 0});
   transform->postTranslate({first.x, first.y, first.z});
@@ -252,17 +269,18 @@ void write_grids(const std::string& path, const openvdb::FloatGrid::Ptr& distanc
 
 }  // namespace
 
-std::vector<BandPoint> signed_distance_band(const WallSurfaces& walls, const BandRequest& r, const std::string& vdb_path,
-                                            const Vec3d& offset) {
+std::vector<BandPoint> signed_distance_band(const WallSurfaces& walls, const BandRequest& r,
+                                            const std::string& vdb_path, const Vec3d& offset) {
   static std::once_flag once;
   std::call_once(once, [] { openvdb::initialize(); });
   std::vector<Facet> facets;
   facets.reserve(walls.mesh.triangle.size());
-  for (const auto& t : walls.mesh.triangle) facets.emplace_back(walls.mesh.vertex[t.x], walls.mesh.vertex[t.y], walls.mesh.vertex[t.z]);
+  for (const auto& t : walls.mesh.triangle)
+    facets.emplace_back(walls.mesh.vertex[t.x], walls.mesh.vertex[t.y], walls.mesh.vertex[t.z]);
   const double reach = r.half_width * r.lattice.dp;
   const BlockLists lists = list_blocks(facets, r, reach);
   std::vector<Piece> pieces(lists.first.size() - 1);
-  std::exception_ptr problem;   // nothing may leave a parallel loop
+  std::exception_ptr problem;  // nothing may leave a parallel loop
 #pragma omp parallel for schedule(dynamic, 4)
   for (std::size_t b = 0; b < pieces.size(); ++b) {
     try {

@@ -17,8 +17,8 @@ namespace gdesp::geometry {
 /// What one lattice point knows of the walls.
 struct BandPoint {
   Index3 at;
-  float distance;     ///< m, negative inside the solid
-  Vec3f normal;       ///< unit, from the wall into the fluid (gradient of the distance)
+  float distance;  ///< m, negative inside the solid
+  Vec3f normal;    ///< unit, from the wall into the fluid (gradient of the distance)
   std::int32_t material;
 };
 
@@ -38,9 +38,9 @@ struct LatticeColumns {
 struct BandRequest {
   Lattice lattice;
   LatticeColumns columns;
-  const ColumnIntervals* solid = nullptr;   ///< per column, m
-  Index3 lower, upper;                      ///< lattice box, inclusive; points outside are dropped
-  double half_width = 3.0;                  ///< dp
+  const ColumnIntervals* solid = nullptr;  ///< per column, m
+  Index3 lower, upper;                     ///< lattice box, inclusive; points outside are dropped
+  double half_width = 3.0;                 ///< dp
 };
 
 /// The narrow band, ordered by (i, j, k). Writes it to `vdb_path` as grids "signed_distance" (float, m) and

@@ -12,7 +12,7 @@
 namespace gdesp::geometry {
 namespace {
 
-constexpr double soft = 0.05;   // of a diameter, overlap of grains at rest that is warned of
+constexpr double soft = 0.05;  // of a diameter, overlap of grains at rest that is warned of
 
 Box grown(Box box, double by) {
   box.lower -= Vec3d{by, by, by};
@@ -63,8 +63,10 @@ PackingRequest request_of(const Layout& layout, std::size_t index) {
   const SolidPart& shape = layout.parts.slides[index];
   PackingRequest r;
   r.space = [&layout, &shape](const ColumnGrid& columns) {
-    const ColumnIntervals inside = shape.box ? solid_intervals(box_mesh(*shape.box), columns) : solid_intervals(shape.mesh, columns);
-    return subtract(subtract(inside, static_solid(layout.parts, columns)), body_solid(layout.parts, layout.scene, columns));
+    const ColumnIntervals inside =
+        shape.box ? solid_intervals(box_mesh(*shape.box), columns) : solid_intervals(shape.mesh, columns);
+    return subtract(subtract(inside, static_solid(layout.parts, columns)),
+                    body_solid(layout.parts, layout.scene, columns));
   };
   r.contains = [&layout, &shape](const std::vector<Vec3d>& points) { return in_space(layout, shape, points); };
   r.body = shape.mesh;
@@ -84,36 +86,42 @@ PackingRequest request_of(const Layout& layout, std::size_t index) {
 void warn_of_packing(const Packing& packing, const Slide& slide, Notes& notes) {
   const std::string name = "slide \"" + slide.name + "\": ";
   if (std::abs(packing.porosity - slide.porosity) > 0.01) {
-    notes.warnings.push_back(name + "porosity " + std::to_string(packing.porosity) + " reached where " + std::to_string(slide.porosity) +
-                             " was asked: the body is too thin for the grains, or the porosity too low for a random packing");
+    notes.warnings.push_back(
+        name + "porosity " + std::to_string(packing.porosity) + " reached where " + std::to_string(slide.porosity) +
+        " was asked: the body is too thin for the grains, or the porosity too low for a random packing");
   }
   if (packing.left_out > 0) {
-    notes.warnings.push_back(name + std::to_string(packing.left_out) + " grains found no room without overlap and were left out");
+    notes.warnings.push_back(name + std::to_string(packing.left_out) +
+                             " grains found no room without overlap and were left out");
   }
 }
 
-SettledBed settle(const PackingRequest& request, const Slide& slide, const GrainSettler& settler, Packing& packing, Notes& notes) {
+SettledBed settle(const PackingRequest& request, const Slide& slide, const GrainSettler& settler, Packing& packing,
+                  Notes& notes) {
   const std::string name = "slide \"" + slide.name + "\": ";
   if (!settler) throw Error(ErrorKind::usage, name + "relaxation \"gravity\" needs the solver, which is not here");
   const std::size_t left_out = packing.left_out;
   const SettledBed bed = settle_packing(request, slide.density, settler, packing);
   if (packing.left_out > left_out) {
-    notes.warnings.push_back(name + std::to_string(packing.left_out - left_out) + " grains slipped out of its shape while they settled and were left out");
+    notes.warnings.push_back(name + std::to_string(packing.left_out - left_out) +
+                             " grains slipped out of its shape while they settled and were left out");
   }
   if (!bed.settlement.at_rest) {
-    notes.warnings.push_back(name + "not at rest after " + std::to_string(bed.settlement.time) + " s of settling: " + std::to_string(bed.settlement.speed) +
-                             " m/s root mean square is left");
+    notes.warnings.push_back(name + "not at rest after " + std::to_string(bed.settlement.time) + " s of settling: " +
+                             std::to_string(bed.settlement.speed) + " m/s root mean square is left");
   }
   if (packing.largest_overlap > soft) {
-    notes.warnings.push_back(name + "its own weight presses grains " + std::to_string(100.0 * packing.largest_overlap) +
-                             " % of a diameter into each other: the contact is too soft for it (contact.youngs_modulus, contact.stiffness)");
+    notes.warnings.push_back(
+        name + "its own weight presses grains " + std::to_string(100.0 * packing.largest_overlap) +
+        " % of a diameter into each other: the contact is too soft for it (contact.youngs_modulus, contact.stiffness)");
   }
   return bed;
 }
 
 }  // namespace
 
-SlideReport add_granular_slide(const Layout& layout, std::size_t index, const BuildOptions& how, GrainTable& grains, Notes& notes) {
+SlideReport add_granular_slide(const Layout& layout, std::size_t index, const BuildOptions& how, GrainTable& grains,
+                               Notes& notes) {
   const auto start = std::chrono::steady_clock::now();
   const Slide& slide = layout.scene.slides[index];
   const SolidPart& shape = layout.parts.slides[index];
@@ -126,7 +134,9 @@ SlideReport add_granular_slide(const Layout& layout, std::size_t index, const Bu
   if (packed) warn_of_packing(packing, slide, notes);
   SlideReport report;
   if (packed && settles) report.settled = settle(request, slide, how.settler, packing, notes);
-  if (!packed && settles) notes.done.push_back("slide \"" + slide.name + "\": its packing settles under gravity before the case is written (relaxation)");
+  if (!packed && settles)
+    notes.done.push_back("slide \"" + slide.name +
+                         "\": its packing settles under gravity before the case is written (relaxation)");
   report.name = slide.name;
   report.kind = slide.kind;
   report.grains = packing.position.size();
@@ -152,7 +162,8 @@ double free_volume(const Layout& layout, const SolidPart& body) {
   ColumnGrid columns = covering_columns(box, (flat ? size.x : std::max(size.x, size.y)) / 800.0);
   if (flat) columns.y0 = 0.0, columns.ny = 1;
   const ColumnIntervals whole = solid_intervals(body.mesh, columns);
-  const double all = volume(whole, columns), part = volume(subtract(whole, static_solid(layout.parts, columns)), columns);
+  const double all = volume(whole, columns),
+               part = volume(subtract(whole, static_solid(layout.parts, columns)), columns);
   return all > 0.0 ? signed_volume(body.mesh) / (flat ? size.y : 1.0) * part / all : 0.0;
 }
 

@@ -46,7 +46,8 @@ ColumnIntervals tank_solid(const WallPart& tank, const ColumnGrid& grid) {
   const bool face[4] = {!is_open(tank, "x-"), !is_open(tank, "x+"), !is_open(tank, "y-"), !is_open(tank, "y+")};
   const bool bottom = !is_open(tank, "bottom");
   return per_column(grid, [&](double x, double y, std::vector<Interval>& out) {
-    const bool wall = (x < lo.x && face[0]) || (x >= hi.x && face[1]) || (y < lo.y && face[2]) || (y >= hi.y && face[3]);
+    const bool wall =
+        (x < lo.x && face[0]) || (x >= hi.x && face[1]) || (y < lo.y && face[2]) || (y >= hi.y && face[3]);
     if (wall) {
       out.push_back({-infinity, top});
       return;
@@ -62,7 +63,8 @@ ColumnIntervals intersect(const ColumnIntervals& a, const ColumnIntervals& b) { 
 
 ColumnIntervals box_solid(const Box& box, const ColumnGrid& grid) {
   return per_column(grid, [&](double x, double y, std::vector<Interval>& out) {
-    if (x >= box.lower.x && x < box.upper.x && y >= box.lower.y && y < box.upper.y) out.push_back({box.lower.z, box.upper.z});
+    if (x >= box.lower.x && x < box.upper.x && y >= box.lower.y && y < box.upper.y)
+      out.push_back({box.lower.z, box.upper.z});
   });
 }
 
@@ -85,13 +87,15 @@ LatticeColumns lattice_columns(const Lattice& lattice, const Box& box) {
     out.j0 = lattice.first_at_or_above(1, box.lower.y);
     j1 = lattice.last_at_or_below(1, box.upper.y);
   }
-  const double nx = std::max(0.0, static_cast<double>(i1) - out.i0 + 1), ny = std::max(0.0, static_cast<double>(j1) - out.j0 + 1);
+  const double nx = std::max(0.0, static_cast<double>(i1) - out.i0 + 1),
+               ny = std::max(0.0, static_cast<double>(j1) - out.j0 + 1);
   if (nx * ny > 4e8) {
     throw Error(ErrorKind::resource, "resolution.dp = " + std::to_string(lattice.dp) + " m makes " +
                                          std::to_string(static_cast<long long>(nx * ny)) +
                                          " lattice columns, more than 4e8; coarsen it or give a smaller domain");
   }
-  out.grid = {lattice.coordinate(0, out.i0), lattice.coordinate(1, out.j0), lattice.dp, static_cast<int>(nx), static_cast<int>(ny)};
+  out.grid = {lattice.coordinate(0, out.i0), lattice.coordinate(1, out.j0), lattice.dp, static_cast<int>(nx),
+              static_cast<int>(ny)};
   return out;
 }
 

@@ -15,10 +15,11 @@
 namespace gdesp::geometry {
 
 /// The motion, along the unit vector `along`, from time `start` (s), in steps of 1/400 of its duration.
-inline PrescribedMotion solitary_wave_motion(double height, double depth, double gravity, const Vec3d& along, double start) {
+inline PrescribedMotion solitary_wave_motion(double height, double depth, double gravity, const Vec3d& along,
+                                             double start) {
   const double k = std::sqrt(3.0 * height / (4.0 * depth * depth * (depth + height)));
   const double c = std::sqrt(gravity * (depth + height));
-  const double reach = std::acosh(std::sqrt(1000.0)) / k;          // m, from the crest to 0.001 H
+  const double reach = std::acosh(std::sqrt(1000.0)) / k;  // m, from the crest to 0.001 H
   const double stroke = 4.0 * std::sqrt(height * (height + depth) / 3.0);
   const double duration = (2.0 * reach + stroke) / c, t0 = reach / c;
   const auto speed = [&](double t, double x) {

@@ -25,10 +25,12 @@ std::vector<float> draw_diameters(const PackingRequest& r, double solid_volume, 
       out.insert(out.end(), static_cast<std::size_t>(std::llround(n)), static_cast<float>(c.diameter));
     }
   } else if (r.deviation <= 0.0 && r.half_width <= 0.0) {
-    out.assign(static_cast<std::size_t>(std::llround(solid_volume / grain_volume(r.diameter, r.dimensions))), static_cast<float>(r.diameter));
+    out.assign(static_cast<std::size_t>(std::llround(solid_volume / grain_volume(r.diameter, r.dimensions))),
+               static_cast<float>(r.diameter));
   } else {
     for (double filled = 0.0; filled < solid_volume;) {
-      const double d = r.diameter + (r.half_width > 0.0 ? r.half_width * random.signed_unit() : r.deviation * std::clamp(random.normal(), -3.0, 3.0));
+      const double d = r.diameter + (r.half_width > 0.0 ? r.half_width * random.signed_unit()
+                                                        : r.deviation * std::clamp(random.normal(), -3.0, 3.0));
       const double v = grain_volume(d, r.dimensions);
       if (filled + 0.5 * v > solid_volume) break;
       filled += v;
@@ -63,14 +65,16 @@ std::vector<Vec3d> lattice_sites(const PackingRequest& r, const TriangleTree& wa
 }
 
 /// At least `wanted` sites, as evenly spread as they come; fewer only when the space is too tight.
-std::vector<Vec3d> enough_sites(const PackingRequest& r, const TriangleTree& walls, double volume, std::size_t wanted, double inset) {
+std::vector<Vec3d> enough_sites(const PackingRequest& r, const TriangleTree& walls, double volume, std::size_t wanted,
+                                double inset) {
   double spacing = std::pow(volume / static_cast<double>(wanted), 1.0 / r.dimensions);
   std::vector<Vec3d> best;
   for (int attempt = 0; attempt < 12; ++attempt) {
     std::vector<Vec3d> sites = lattice_sites(r, walls, spacing, inset);
     if (sites.size() > best.size()) best = sites;
     if (sites.size() >= wanted) return sites;
-    const double ratio = std::max(static_cast<double>(sites.size()), 0.2 * static_cast<double>(wanted)) / static_cast<double>(wanted);
+    const double ratio =
+        std::max(static_cast<double>(sites.size()), 0.2 * static_cast<double>(wanted)) / static_cast<double>(wanted);
     spacing *= std::min(0.995, std::pow(ratio, 1.0 / r.dimensions));
   }
   return best;
@@ -81,22 +85,27 @@ void keep_random(std::vector<Vec3d>& sites, std::size_t wanted, Random& random) 
   std::iota(order.begin(), order.end(), std::size_t{0});
   for (std::size_t k = 0; k < wanted; ++k) std::swap(order[k], order[k + random.below(order.size() - k)]);
   order.resize(wanted);
-  std::sort(order.begin(), order.end());   // keeps neighbours near each other in memory
+  std::sort(order.begin(), order.end());  // keeps neighbours near each other in memory
   std::vector<Vec3d> kept;
   kept.reserve(wanted);
   for (const std::size_t k : order) kept.push_back(sites[k]);
   sites = std::move(kept);
 }
 
-void jitter(std::vector<Vec3d>& sites, const TriangleTree& walls, double reach, double inset, int dimensions, Random& random) {
+void jitter(std::vector<Vec3d>& sites, const TriangleTree& walls, double reach, double inset, int dimensions,
+            Random& random) {
   for (auto& p : sites) {
-    const Vec3d by{random.signed_unit() * reach, dimensions == 2 ? 0.0 : random.signed_unit() * reach, random.signed_unit() * reach};
+    const Vec3d by{random.signed_unit() * reach, dimensions == 2 ? 0.0 : random.signed_unit() * reach,
+                   random.signed_unit() * reach};
     if (walls.nearest(p, inset + norm(by)).triangle < 0) p += by;
   }
 }
 
 void require_one(bool any, const PackingRequest& r, double volume) {
-  if (!any) throw Error(ErrorKind::input, r.name + (r.name.empty() ? "" : ": ") + "no grain of diameter " + std::to_string(grain_sizes(r).mean) + " m fits its " + std::to_string(volume) + (r.dimensions == 2 ? " m2" : " m3"));
+  if (!any)
+    throw Error(ErrorKind::input, r.name + (r.name.empty() ? "" : ": ") + "no grain of diameter " +
+                                      std::to_string(grain_sizes(r).mean) + " m fits its " + std::to_string(volume) +
+                                      (r.dimensions == 2 ? " m2" : " m3"));
 }
 
 /// Spheres spread over the space, overlapping; out.left_out are those without a site.
@@ -138,13 +147,16 @@ double space_volume(const PackingRequest& r) {
   return exact * part / whole;
 }
 
-double grain_volume(double d, int dimensions) { return std::numbers::pi * (dimensions == 2 ? d * d / 4.0 : d * d * d / 6.0); }
+double grain_volume(double d, int dimensions) {
+  return std::numbers::pi * (dimensions == 2 ? d * d / 4.0 : d * d * d / 6.0);
+}
 
 GrainSizes grain_sizes(const PackingRequest& r) {
   const double reach = std::max(3.0 * r.deviation, r.half_width);
   if (r.sieve.empty()) return {r.diameter, r.diameter - reach, r.diameter + reach};
   GrainSizes s{r.sieve.front().diameter, r.sieve.front().diameter, r.sieve.front().diameter};
-  for (const auto& c : r.sieve) s.smallest = std::min(s.smallest, c.diameter), s.largest = std::max(s.largest, c.diameter);
+  for (const auto& c : r.sieve)
+    s.smallest = std::min(s.smallest, c.diameter), s.largest = std::max(s.largest, c.diameter);
   return s;
 }
 
@@ -153,7 +165,8 @@ TriangleMesh bounding_walls(const PackingRequest& r) {
   if (r.dimensions != 2) return walls;
   std::erase_if(walls.triangle, [&](const auto& t) {
     const Vec3d a = walls.vertex[static_cast<std::size_t>(t.x)];
-    const Vec3d n = cross(walls.vertex[static_cast<std::size_t>(t.y)] - a, walls.vertex[static_cast<std::size_t>(t.z)] - a);
+    const Vec3d n =
+        cross(walls.vertex[static_cast<std::size_t>(t.y)] - a, walls.vertex[static_cast<std::size_t>(t.z)] - a);
     return std::abs(n.y) > 0.5 * norm(n);
   });
   return walls;
@@ -185,7 +198,8 @@ Packing pack_spheres(const PackingRequest& r) {
 }
 
 void measure(const PackingRequest& r, Packing& p) {
-  p.largest_overlap = largest_overlap({p.position, p.diameter, r.dimensions}, TriangleTree(bounding_walls(r)), grain_sizes(r).largest);
+  p.largest_overlap =
+      largest_overlap({p.position, p.diameter, r.dimensions}, TriangleTree(bounding_walls(r)), grain_sizes(r).largest);
   p.porosity = porosity_of(r, p);
 }
 

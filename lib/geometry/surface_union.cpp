@@ -26,7 +26,7 @@ struct Piece {
   TriangleMesh mesh;
   Box box;
   std::int32_t material = 0;
-  const WallPart* wall = nullptr;   ///< null: terrain
+  const WallPart* wall = nullptr;  ///< null: terrain
 };
 
 bool overlap(const Box& a, const Box& b) {
@@ -51,7 +51,8 @@ bool to_surface(const TriangleMesh& mesh, Surface& out) {
   std::vector<Kernel::Point_3> points;
   std::vector<std::vector<std::size_t>> faces;
   for (const auto& v : mesh.vertex) points.emplace_back(v.x, v.y, v.z);
-  for (const auto& t : mesh.triangle) faces.push_back({static_cast<std::size_t>(t.x), static_cast<std::size_t>(t.y), static_cast<std::size_t>(t.z)});
+  for (const auto& t : mesh.triangle)
+    faces.push_back({static_cast<std::size_t>(t.x), static_cast<std::size_t>(t.y), static_cast<std::size_t>(t.z)});
   if (!pmp::is_polygon_soup_a_polygon_mesh(faces)) return false;
   pmp::polygon_soup_to_polygon_mesh(points, faces, out);
   return true;
@@ -85,10 +86,9 @@ bool split(Piece& a, Piece& b) {
   Surface p, q;
   if (!to_surface(near_a, p) || !to_surface(near_b, q)) return false;
   try {
-    pmp::corefine(p, q, CGAL::parameters::throw_on_self_intersection(true), CGAL::parameters::throw_on_self_intersection(true));
-  } catch (const std::exception&) {
-    return false;
-  }
+    pmp::corefine(p, q, CGAL::parameters::throw_on_self_intersection(true),
+                  CGAL::parameters::throw_on_self_intersection(true));
+  } catch (const std::exception&) { return false; }
   append(rest_a, from_surface(p));
   append(rest_b, from_surface(q));
   a.mesh = std::move(rest_a);
@@ -99,7 +99,8 @@ bool split(Piece& a, Piece& b) {
 std::vector<Vec3d> centres_of(const TriangleMesh& mesh) {
   std::vector<Vec3d> out;
   out.reserve(mesh.triangle.size());
-  for (const auto& t : mesh.triangle) out.push_back((mesh.vertex[t.x] + mesh.vertex[t.y] + mesh.vertex[t.z]) * (1.0 / 3.0));
+  for (const auto& t : mesh.triangle)
+    out.push_back((mesh.vertex[t.x] + mesh.vertex[t.y] + mesh.vertex[t.z]) * (1.0 / 3.0));
   return out;
 }
 
@@ -164,7 +165,8 @@ WallSurfaces exposed_surfaces(const SceneParts& parts, Notes& notes) {
   for (std::size_t a = 0; a < pieces.size(); ++a) {
     for (std::size_t b = a + 1; b < pieces.size(); ++b) {
       if (!overlap(pieces[a].box, pieces[b].box) || split(pieces[a], pieces[b])) continue;
-      notes.warnings.push_back(pieces[a].name + " and " + pieces[b].name + " overlap and cannot be cut along their intersection (one crosses itself): "
+      notes.warnings.push_back(pieces[a].name + " and " + pieces[b].name +
+                               " overlap and cannot be cut along their intersection (one crosses itself): "
                                "whole triangles are kept or dropped there");
     }
   }

@@ -10,7 +10,7 @@ namespace {
 /// A face of a box: where along which axis, and the box grown by the tolerance.
 struct Face {
   int axis;
-  double place;   // m
+  double place;  // m
   Box box;
 
   bool holds(const Vec3d& p, double tolerance) const {
@@ -47,7 +47,8 @@ void mark_symmetry_planes(const SceneParts& parts, double tolerance, TriangleTab
     if (walls.body[t] != 0) continue;
     for (const Face& face : faces) {
       bool all = true;
-      for (int k = 0; k < 3; ++k) all = all && face.holds(walls.vertex[static_cast<std::size_t>(walls.triangle[t][k])], tolerance);
+      for (int k = 0; k < 3; ++k)
+        all = all && face.holds(walls.vertex[static_cast<std::size_t>(walls.triangle[t][k])], tolerance);
       if (all) walls.smooth[t] = 1;
     }
   }

@@ -40,7 +40,8 @@ TriangleMesh read_sheet_mesh(const std::string& path, const Terrain& t, Notes& n
   transform(mesh, {t.scale, t.scale, t.vertical_scale}, {0.0, 0.0, t.vertical_offset});
   if (t.vertical_scale < 0.0) flip(mesh);
   const MeshReport report = check_and_repair(mesh, MeshPurpose::sheet);
-  if (report.verdict == MeshVerdict::refused) throw Error(ErrorKind::input, path + ": no terrain sheet: " + report.refusal);
+  if (report.verdict == MeshVerdict::refused)
+    throw Error(ErrorKind::input, path + ": no terrain sheet: " + report.refusal);
   for (const auto& what : report.done) notes.done.push_back(path + ": " + what);
   const std::size_t turned = turn_up(mesh);
   if (turned > 0 && turned < mesh.triangle.size()) {
@@ -70,7 +71,9 @@ bool touches_wet(const Heightfield& f, int i, int j, double limit) {
   return false;
 }
 
-void pass_on(const Raster& raster, Notes& notes) { notes.warnings.insert(notes.warnings.end(), raster.warnings.begin(), raster.warnings.end()); }
+void pass_on(const Raster& raster, Notes& notes) {
+  notes.warnings.insert(notes.warnings.end(), raster.warnings.begin(), raster.warnings.end());
+}
 
 std::vector<Vec3d> bathymetry_points(const Scene& scene, const std::string& crs, Notes& notes) {
   const Terrain& t = scene.terrain;
@@ -94,8 +97,9 @@ void burn_bathymetry(Heightfield& f, const Scene& scene, const std::string& crs,
   std::size_t dry = 0;
   for (const auto& p : points) extend(lake, p), dry += p.z > limit;
   if (2 * dry > given) {
-    notes.warnings.push_back(scene.terrain.bathymetry + ": " + std::to_string(dry) + " of its " + std::to_string(given) +
-                             " points lie above the water: check sign and datum (terrain.bathymetry_scale, terrain.bathymetry_offset)");
+    notes.warnings.push_back(
+        scene.terrain.bathymetry + ": " + std::to_string(dry) + " of its " + std::to_string(given) +
+        " points lie above the water: check sign and datum (terrain.bathymetry_scale, terrain.bathymetry_offset)");
   }
   const double margin = 0.25 * std::max(extent(lake).x, extent(lake).y);
   for (int j = 0; j < f.ny; ++j) {
@@ -121,8 +125,8 @@ void burn_bathymetry(Heightfield& f, const Scene& scene, const std::string& crs,
     throw Error(ErrorKind::input, scene.terrain.bathymetry + ": none of its " + std::to_string(given) +
                                       " points lowers the terrain; check terrain.bathymetry_crs, _scale and _offset");
   }
-  notes.done.push_back(scene.terrain.bathymetry + ": " + std::to_string(given) + " points burned into " + std::to_string(burned) +
-                       " terrain nodes, deepest cut " + std::to_string(deepest) + " m");
+  notes.done.push_back(scene.terrain.bathymetry + ": " + std::to_string(given) + " points burned into " +
+                       std::to_string(burned) + " terrain nodes, deepest cut " + std::to_string(deepest) + " m");
 }
 
 Heightfield regular_grid_of(const TriangleMesh& mesh, double spacing) {
@@ -174,7 +178,7 @@ std::size_t turn_up(TriangleMesh& mesh) {
 }
 
 std::vector<double> heights_on_grid(const TriangleMesh& sheet, const Heightfield& grid) {
-  TriangleMesh square = sheet;   // columns are square; stretch y instead
+  TriangleMesh square = sheet;  // columns are square; stretch y instead
   const double stretch = grid.dx / grid.dy;
   for (auto& v : square.vertex) v.y = (v.y - grid.y0) * stretch;
   ColumnGrid columns{grid.x0, 0.0, grid.dx, grid.nx, grid.ny};
@@ -203,12 +207,17 @@ TerrainSheet load_terrain(const Scene& scene, Notes& notes) {
   if (std::optional<Raster> raster; meshes == 0 && (raster = read_tiles(t.files, raster_options(t, "")))) {
     pass_on(*raster, notes);
     Heightfield& field = raster->field;
-    if (const std::size_t n = fill_small_gaps(field)) notes.done.push_back(t.files.front() + ": " + std::to_string(n) + " nodes without data, enclosed and few, filled from their rim");
+    if (const std::size_t n = fill_small_gaps(field))
+      notes.done.push_back(t.files.front() + ": " + std::to_string(n) +
+                           " nodes without data, enclosed and few, filled from their rim");
     if (!t.bathymetry.empty()) burn_bathymetry(field, scene, raster->crs, notes);
     sheet.mesh = scene.domain ? to_mesh(field, &*scene.domain) : to_mesh(field);
     sheet.spacing = std::sqrt(field.dx * field.dy);
     sheet.crs = raster->crs;
-    if (sheet.mesh.empty()) throw Error(ErrorKind::input, t.files.front() + ": no elevation inside the domain (" + span_text(*scene.domain, {}) + "); the terrain spans " + span_text(bounds(field), {}));
+    if (sheet.mesh.empty())
+      throw Error(ErrorKind::input, t.files.front() + ": no elevation inside the domain (" +
+                                        span_text(*scene.domain, {}) + "); the terrain spans " +
+                                        span_text(bounds(field), {}));
     return sheet;
   }
   sheet = meshes ? from_meshes(t.files, t, notes) : from_points(t.files, t, "");

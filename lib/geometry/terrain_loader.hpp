@@ -11,15 +11,16 @@ namespace gdesp::geometry {
 /// A sheet with normals up, in scene coordinates.
 struct TerrainSheet {
   TriangleMesh mesh;
-  double spacing = 0.0;     ///< m, mean horizontal distance of vertices
-  std::string crs;          ///< WKT or empty
+  double spacing = 0.0;  ///< m, mean horizontal distance of vertices
+  std::string crs;       ///< WKT or empty
 };
 
 /// Reads scene.terrain. Throws Error(input).
 TerrainSheet load_terrain(const Scene& scene, Notes& notes);
 
 /// A surface file (raster, points or mesh) as a sheet, for slides and bathymetry.
-TerrainSheet load_sheet(const std::string& path, const Terrain& conventions, const std::string& target_crs, Notes& notes);
+TerrainSheet load_sheet(const std::string& path, const Terrain& conventions, const std::string& target_crs,
+                        Notes& notes);
 
 /// Delaunay triangulation of points seen from above; equal positions are joined (the mean height is kept).
 TriangleMesh triangulate_points(const std::vector<Vec3d>& points);

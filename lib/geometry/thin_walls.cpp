@@ -10,14 +10,18 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr int reach = 5;               // columns looked through: a wall aslant is longer along the axes than across
-constexpr int finer = 8;               // columns of the close look, per dp
-constexpr int directions = 16;         // of the close look
-constexpr int open_space = 2;          // dp without wall or water: the space behind a wall
-constexpr std::size_t looks = 24;      // places looked at closely
+constexpr int reach = 5;           // columns looked through: a wall aslant is longer along the axes than across
+constexpr int finer = 8;           // columns of the close look, per dp
+constexpr int directions = 16;     // of the close look
+constexpr int open_space = 2;      // dp without wall or water: the space behind a wall
+constexpr std::size_t looks = 24;  // places looked at closely
 
 /// A wall that is thin on the lattice.
-struct Suspect { int i, j; Interval open; int columns; };   // open: heights of the space behind
+struct Suspect {
+  int i, j;
+  Interval open;
+  int columns;
+};  // open: heights of the space behind
 
 using Pieces = std::vector<Interval>;
 
@@ -47,9 +51,11 @@ Pieces complement(const Pieces& sorted) {
 class Search {
  public:
   Search(const FillSpace& space, const ColumnIntervals& walls, const SceneParts& parts, const std::vector<Vec3d>& water)
-      : s_(space), walls_(walls), parts_(parts), grid_(space.columns.grid), dp_(space.lattice.dp), wet_(grid_.count(), Interval{infinity, -infinity}) {
+      : s_(space), walls_(walls), parts_(parts), grid_(space.columns.grid), dp_(space.lattice.dp),
+        wet_(grid_.count(), Interval{infinity, -infinity}) {
     for (const auto& p : water) {
-      Interval& w = wet_[grid_.index(column(p.x, grid_.x0, grid_.nx), s_.lattice.dimensions == 2 ? 0 : column(p.y, grid_.y0, grid_.ny))];
+      Interval& w = wet_[grid_.index(column(p.x, grid_.x0, grid_.nx),
+                                     s_.lattice.dimensions == 2 ? 0 : column(p.y, grid_.y0, grid_.ny))];
       w = {std::min(w.lower, p.z - 0.5 * dp_), std::max(w.upper, p.z + 0.5 * dp_)};
     }
   }
@@ -72,10 +78,13 @@ class Search {
   }
 
  private:
-  int column(double c, double first, int n) const { return std::clamp(static_cast<int>(std::lround((c - first) / dp_)), 0, n - 1); }
+  int column(double c, double first, int n) const {
+    return std::clamp(static_cast<int>(std::lround((c - first) / dp_)), 0, n - 1);
+  }
 
   Pieces solid(std::size_t c) const {
-    return {walls_.interval.begin() + static_cast<std::ptrdiff_t>(walls_.first[c]), walls_.interval.begin() + static_cast<std::ptrdiff_t>(walls_.first[c + 1])};
+    return {walls_.interval.begin() + static_cast<std::ptrdiff_t>(walls_.first[c]),
+            walls_.interval.begin() + static_cast<std::ptrdiff_t>(walls_.first[c + 1])};
   }
 
   /// Neither solid nor water.
@@ -87,7 +96,8 @@ class Search {
 
   void look_along(int i, int j, int di, int dj) {
     const Interval& w = wet_[grid_.index(i, j)];
-    Pieces front = {{w.lower, w.upper - dp_}};   // the part of the water's side before which only wall has been met so far
+    Pieces front = {
+        {w.lower, w.upper - dp_}};  // the part of the water's side before which only wall has been met so far
     for (int n = 1; n <= reach && !front.empty(); ++n) {
       const int a = i + n * di, b = j + n * dj;
       if (a < 0 || b < 0 || a >= grid_.nx || b >= grid_.ny) return;
@@ -117,10 +127,12 @@ class Search {
 
   /// The thinnest on the lattice first, and as many of them, evenly, as are looked at.
   void look_closely() {
-    std::stable_sort(suspects_.begin(), suspects_.end(), [](const Suspect& a, const Suspect& b) { return a.columns < b.columns; });
-    const auto least = static_cast<std::size_t>(std::count_if(suspects_.begin(), suspects_.end(), [&](const Suspect& a) { return a.columns == suspects_.front().columns; }));
+    std::stable_sort(suspects_.begin(), suspects_.end(),
+                     [](const Suspect& a, const Suspect& b) { return a.columns < b.columns; });
+    const auto least = static_cast<std::size_t>(std::count_if(
+        suspects_.begin(), suspects_.end(), [&](const Suspect& a) { return a.columns == suspects_.front().columns; }));
     for (std::size_t k = 0; k < std::min(looks, least); ++k) look_around(suspects_[k * least / std::min(looks, least)]);
-    if (!best_ && least < suspects_.size()) {   // aslant: the thinnest along the axes need not be the thinnest across
+    if (!best_ && least < suspects_.size()) {  // aslant: the thinnest along the axes need not be the thinnest across
       for (std::size_t k = 0; k < looks; ++k) look_around(suspects_[k * suspects_.size() / looks]);
     }
   }
@@ -143,12 +155,13 @@ class Search {
   void look_through(const ColumnGrid& fine, const ColumnIntervals& solid, int half, double angle, const Vec3d& from) {
     int entered = 0, left = 0;
     for (int n = 1; n < half; ++n) {
-      const int a = half + static_cast<int>(std::lround(n * std::cos(angle))), b = fine.ny == 1 ? 0 : half + static_cast<int>(std::lround(n * std::sin(angle)));
+      const int a = half + static_cast<int>(std::lround(n * std::cos(angle))),
+                b = fine.ny == 1 ? 0 : half + static_cast<int>(std::lround(n * std::sin(angle)));
       if (solid.contains(fine.index(a, b), from.z)) {
         if (entered == 0) entered = n;
         left = n + 1;
       } else if (entered > 0 && is_near_water(fine.x(a), fine.y(b), from.z, 0)) {
-        entered = 0;   // a corner of the water's own side
+        entered = 0;  // a corner of the water's own side
       } else if (entered > 0 && n - left >= open_space * finer) {
         if (!is_near_water(fine.x(a), fine.y(b), from.z, 1)) offer(from, (left - entered) * fine.spacing);
         return;
@@ -187,7 +200,8 @@ class Search {
 
 }  // namespace
 
-std::optional<ThinWall> thinnest_wall(const FillSpace& space, const ColumnIntervals& walls, const SceneParts& parts, const std::vector<Vec3d>& water) {
+std::optional<ThinWall> thinnest_wall(const FillSpace& space, const ColumnIntervals& walls, const SceneParts& parts,
+                                      const std::vector<Vec3d>& water) {
   if (water.empty() || space.columns.grid.count() == 0) return std::nullopt;
   return Search(space, walls, parts, water).run();
 }

@@ -22,9 +22,9 @@ struct TriangleMesh {
 
 /// Mass, centre and inertia of a closed mesh.
 struct MassProperties {
-  double volume = 0.0;                        ///< m3
-  Vec3d centre;                               ///< m
-  std::array<double, 9> inertia_per_density{}; ///< m5, about the centre, row by row
+  double volume = 0.0;                          ///< m3
+  Vec3d centre;                                 ///< m
+  std::array<double, 9> inertia_per_density{};  ///< m5, about the centre, row by row
 };
 
 /// Axis-aligned bounds; lower > upper when there are no vertices.

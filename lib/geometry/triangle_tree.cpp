@@ -46,10 +46,11 @@ std::int32_t TriangleTree::build(std::int32_t first, std::int32_t last) {
   const Vec3d size = extent(centres);
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
   const std::int32_t middle = (first + last) / 2;
-  std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + last, [&](std::int32_t a, std::int32_t b) {
-    const double ca = centre(a)[axis], cb = centre(b)[axis];
-    return ca != cb ? ca < cb : a < b;
-  });
+  std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + last,
+                   [&](std::int32_t a, std::int32_t b) {
+                     const double ca = centre(a)[axis], cb = centre(b)[axis];
+                     return ca != cb ? ca < cb : a < b;
+                   });
   node_[self].count = 0;
   build(first, middle);
   const std::int32_t right = build(middle, last);

@@ -11,9 +11,9 @@ namespace gdesp::geometry {
 
 /// The nearest point of a mesh to a query point.
 struct NearestPoint {
-  double distance = 1e300;       ///< m
-  Vec3d point;                   ///< m
-  std::int32_t triangle = -1;    ///< -1: none within the limit
+  double distance = 1e300;     ///< m
+  Vec3d point;                 ///< m
+  std::int32_t triangle = -1;  ///< -1: none within the limit
 };
 
 class TriangleTree {
@@ -29,11 +29,16 @@ class TriangleTree {
   NearestPoint nearest(const Vec3d& p, double limit) const;
   /// Corners of a triangle.
   const Vec3d* corners(std::int32_t triangle) const { return corner_[triangle].at; }
-  Vec3d normal(std::int32_t triangle) const;   ///< unit; zero for a degenerate triangle
+  Vec3d normal(std::int32_t triangle) const;  ///< unit; zero for a degenerate triangle
 
  private:
-  struct Node { Box box; std::int32_t first, count, right; };   // count > 0: a leaf; else left child is the next node
-  struct Corners { Vec3d at[3]; };
+  struct Node {
+    Box box;
+    std::int32_t first, count, right;
+  };  // count > 0: a leaf; else left child is the next node
+  struct Corners {
+    Vec3d at[3];
+  };
   std::int32_t build(std::int32_t first, std::int32_t last);
 
   std::vector<Corners> corner_;

@@ -13,7 +13,7 @@ namespace gdesp::geometry {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double flat_clearance = 0.45;   // dp, of fluid from flat walls: half a spacing with room for rounding
+constexpr double flat_clearance = 0.45;  // dp, of fluid from flat walls: half a spacing with room for rounding
 
 std::string metres(double v) {
   char text[40];
@@ -49,13 +49,15 @@ bool is_clear(const Vec3d& p, const SceneParts& parts, const Lattice& lattice) {
 std::vector<Vec3d> lattice_points(const ColumnIntervals& inside, const FillSpace& s, const SceneParts& parts) {
   std::vector<Vec3d> out;
   const ColumnGrid& grid = s.columns.grid;
-  const std::int32_t low = s.lattice.first_at_or_above(2, s.domain.lower.z), high = s.lattice.last_at_or_below(2, s.domain.upper.z);
+  const std::int32_t low = s.lattice.first_at_or_above(2, s.domain.lower.z),
+                     high = s.lattice.last_at_or_below(2, s.domain.upper.z);
   for (int j = 0; j < grid.ny; ++j) {
     for (int i = 0; i < grid.nx; ++i) {
       const std::size_t c = grid.index(i, j);
       for (std::size_t k = inside.first[c]; k < inside.first[c + 1]; ++k) {
         // The bounds are compared exactly as the walls' inside test does: a point is in the water or in the wall, never both.
-        const std::int32_t k0 = std::max(low, s.lattice.first_at_or_above(2, std::max(inside.interval[k].lower, s.domain.lower.z)));
+        const std::int32_t k0 =
+            std::max(low, s.lattice.first_at_or_above(2, std::max(inside.interval[k].lower, s.domain.lower.z)));
         for (std::int32_t m = k0; m <= high && s.lattice.coordinate(2, m) < inside.interval[k].upper; ++m) {
           if (s.lattice.coordinate(2, m) < inside.interval[k].lower) continue;
           const Vec3d p = s.lattice.place({s.columns.i0 + i, s.columns.j0 + j, m});
@@ -125,16 +127,20 @@ class Basin {
     const double fj = s_.lattice.dimensions == 2 ? 0.0 : std::round((fill_.seed->y - grid.y0) / grid.spacing);
     const std::string where = name_ + ".seed (x = " + easting(fill_.seed->x) + ", y = " + northing(fill_.seed->y) + ")";
     if (fi < 0 || fj < 0 || fi >= grid.nx || fj >= grid.ny) {
-      throw Error(ErrorKind::input, where + " lies outside the domain and the terrain, x " + easting(grid.x(0)) + " to " +
-                                        easting(grid.x(grid.nx - 1)) + ", y " + northing(grid.y(0)) + " to " + northing(grid.y(grid.ny - 1)));
+      throw Error(ErrorKind::input, where + " lies outside the domain and the terrain, x " + easting(grid.x(0)) +
+                                        " to " + easting(grid.x(grid.nx - 1)) + ", y " + northing(grid.y(0)) + " to " +
+                                        northing(grid.y(grid.ny - 1)));
     }
     const std::size_t c = grid.index(static_cast<int>(fi), static_cast<int>(fj));
-    if (!wanted(static_cast<int>(fi), static_cast<int>(fj))) throw Error(ErrorKind::input, where + " lies outside " + name_ + ".polygon");
+    if (!wanted(static_cast<int>(fi), static_cast<int>(fj)))
+      throw Error(ErrorKind::input, where + " lies outside " + name_ + ".polygon");
     if (open_.first[c] == open_.first[c + 1]) {
       const double ground = s_.ground[c];
-      throw Error(ErrorKind::input, where + (std::isfinite(ground) ? " stands on ground at " + elevation(ground) + ", not below the level of " +
-                                                                         elevation(fill_.level) + "; move it into the basin or raise the level"
-                                                                   : " lies in a wall or where there is no terrain; move it into the basin"));
+      throw Error(
+          ErrorKind::input,
+          where + (std::isfinite(ground) ? " stands on ground at " + elevation(ground) + ", not below the level of " +
+                                               elevation(fill_.level) + "; move it into the basin or raise the level"
+                                         : " lies in a wall or where there is no terrain; move it into the basin"));
     }
     return open_.first[c + 1] - 1;
   }
@@ -146,7 +152,8 @@ class Basin {
       if (open_.interval[k].lower < lowest - 1e-9) lowest = open_.interval[k].lower, best = k;
     }
     if (best == open_.interval.size()) {
-      throw Error(ErrorKind::input, name_ + ".level = " + elevation(fill_.level) + " is below the bed; " + lowest_ground_text());
+      throw Error(ErrorKind::input,
+                  name_ + ".level = " + elevation(fill_.level) + " is below the bed; " + lowest_ground_text());
     }
     return best;
   }
@@ -161,7 +168,8 @@ class Basin {
       }
     }
     if (lowest == infinity) return "there is no terrain inside its polygon and the domain";
-    return "the lowest ground " + std::string(fill_.polygon.empty() ? "" : "inside its polygon ") + "lies at " + elevation(lowest);
+    return "the lowest ground " + std::string(fill_.polygon.empty() ? "" : "inside its polygon ") + "lies at " +
+           elevation(lowest);
   }
 
   void visit_neighbours(std::size_t k, std::size_t column, std::vector<std::size_t>& stack, FillReport& report) {
@@ -184,7 +192,9 @@ class Basin {
 
   void flow_into(std::size_t k, std::size_t column, std::vector<std::size_t>& stack) {
     for (std::size_t m = open_.first[column]; m < open_.first[column + 1]; ++m) {
-      if (reached_[m] || open_.interval[m].lower >= open_.interval[k].upper || open_.interval[m].upper <= open_.interval[k].lower) continue;
+      if (reached_[m] || open_.interval[m].lower >= open_.interval[k].upper ||
+          open_.interval[m].upper <= open_.interval[k].lower)
+        continue;
       reached_[m] = true;
       stack.push_back(m);
     }
@@ -219,13 +229,15 @@ class Basin {
         if (open_.interval[k].lower < report.lowest_ground) {
           const ColumnGrid& grid = s_.columns.grid;
           report.lowest_ground = open_.interval[k].lower;
-          report.lowest_at = {grid.x(static_cast<int>(c) % grid.nx), grid.y(static_cast<int>(c) / grid.nx), report.lowest_ground};
+          report.lowest_at = {grid.x(static_cast<int>(c) % grid.nx), grid.y(static_cast<int>(c) / grid.nx),
+                              report.lowest_ground};
         }
         surface += open_.interval[k].upper == fill_.level;
       }
       out.first[c + 1] = out.interval.size();
     }
-    report.surface_area = static_cast<double>(surface) * (s_.lattice.dimensions == 2 ? s_.lattice.dp : s_.lattice.dp * s_.lattice.dp);
+    report.surface_area =
+        static_cast<double>(surface) * (s_.lattice.dimensions == 2 ? s_.lattice.dp : s_.lattice.dp * s_.lattice.dp);
     return out;
   }
 
@@ -244,7 +256,8 @@ ColumnIntervals box_columns(const Box& box, const FillSpace& s) {
   for (int j = 0; j < grid.ny; ++j) {
     for (int i = 0; i < grid.nx; ++i) {
       const double x = grid.x(i), y = grid.y(j), e = 1e-9 * s.lattice.dp;
-      const bool in = x > box.lower.x + e && x < box.upper.x - e && (flat || (y > box.lower.y + e && y < box.upper.y - e));
+      const bool in =
+          x > box.lower.x + e && x < box.upper.x - e && (flat || (y > box.lower.y + e && y < box.upper.y - e));
       if (in) out.interval.push_back({box.lower.z, box.upper.z});
       out.first[grid.index(i, j) + 1] = out.interval.size();
     }
@@ -300,8 +313,8 @@ std::vector<Vec3d> box_points(const Box& box, const FillSpace& s, const ScenePar
 
 }  // namespace
 
-std::vector<Vec3d> fill_water(const FluidFill& fill, const SolidPart& mesh, const FillSpace& space, const SceneParts& parts,
-                              const std::string& name, FillReport& report) {
+std::vector<Vec3d> fill_water(const FluidFill& fill, const SolidPart& mesh, const FillSpace& space,
+                              const SceneParts& parts, const std::string& name, FillReport& report) {
   report.kind = fill.kind;
   ColumnIntervals water;
   std::vector<Vec3d> points;
@@ -321,7 +334,8 @@ std::vector<Vec3d> fill_water(const FluidFill& fill, const SolidPart& mesh, cons
   report.volume = static_cast<double>(points.size()) * cell_volume(space.lattice);
   report.exact_volume = column_volume(water, space.lattice);
   if (points.empty()) {
-    throw Error(ErrorKind::input, name + " (" + fill.kind + ") holds no particle at resolution.dp = " + metres(space.lattice.dp) +
+    throw Error(ErrorKind::input, name + " (" + fill.kind +
+                                      ") holds no particle at resolution.dp = " + metres(space.lattice.dp) +
                                       ": it lies outside the domain, inside a solid, or is thinner than dp");
   }
   return points;

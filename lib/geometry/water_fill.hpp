@@ -18,21 +18,21 @@ namespace gdesp::geometry {
 struct FillReport {
   std::string kind;
   std::size_t particles = 0;
-  double volume = 0.0;              ///< m3 (m2 in two dimensions), of the particles
-  double exact_volume = 0.0;        ///< m3, of the space filled, from the columns' true intervals
-  double surface_area = 0.0;        ///< m2, of the water surface (level fills)
-  double level = 0.0;               ///< m, top of the fill
-  double lowest_ground = 0.0;       ///< m, level fills
-  Vec3d lowest_at;                  ///< m, such a place
-  double open_edge = 0.0;           ///< m, length of the basin's rim that is held by no wall (polygon or edge of the terrain)
-  Vec3d open_edge_at;               ///< one such place
+  double volume = 0.0;         ///< m3 (m2 in two dimensions), of the particles
+  double exact_volume = 0.0;   ///< m3, of the space filled, from the columns' true intervals
+  double surface_area = 0.0;   ///< m2, of the water surface (level fills)
+  double level = 0.0;          ///< m, top of the fill
+  double lowest_ground = 0.0;  ///< m, level fills
+  Vec3d lowest_at;             ///< m, such a place
+  double open_edge = 0.0;  ///< m, length of the basin's rim that is held by no wall (polygon or edge of the terrain)
+  Vec3d open_edge_at;      ///< one such place
 };
 
 /// A region where grains stand in the water at the start: there the water is thinned to the pores.
 struct PorousRegion {
-  std::optional<Box> box;           ///< m; exact when the shape is a box
-  ColumnIntervals inside;           ///< otherwise, on the fill's columns
-  Box bounds;                       ///< m
+  std::optional<Box> box;  ///< m; exact when the shape is a box
+  ColumnIntervals inside;  ///< otherwise, on the fill's columns
+  Box bounds;              ///< m
   double porosity = 1.0;
 };
 
@@ -40,17 +40,17 @@ struct PorousRegion {
 struct FillSpace {
   Lattice lattice;
   LatticeColumns columns;
-  ColumnIntervals solid;            ///< walls and bodies together
-  std::vector<double> ground;       ///< m, per column; NaN: none
-  Box domain;                       ///< m
-  Vec3d offset;                     ///< m, added to coordinates in messages
+  ColumnIntervals solid;       ///< walls and bodies together
+  std::vector<double> ground;  ///< m, per column; NaN: none
+  Box domain;                  ///< m
+  Vec3d offset;                ///< m, added to coordinates in messages
 };
 
 /// Positions (m) of one fill. Levels and meshes use the common lattice; a box has its own, fitted to its faces (spacing
 /// length / round(length / dp) along each axis), which is the common one when its faces lie on that. Throws
 /// Error(input): seed in the solid or above the level, level below the bed, nothing filled.
-std::vector<Vec3d> fill_water(const FluidFill& fill, const SolidPart& mesh, const FillSpace& space, const SceneParts& parts,
-                              const std::string& name, FillReport& report);
+std::vector<Vec3d> fill_water(const FluidFill& fill, const SolidPart& mesh, const FillSpace& space,
+                              const SceneParts& parts, const std::string& name, FillReport& report);
 
 /// Appends the points of `more` that are farther than dp / 2 from every point of `fluid`.
 void add_fill(std::vector<Vec3d>& fluid, std::vector<Vec3d> more, double dp);

@@ -10,10 +10,13 @@
 namespace gdesp::geometry {
 namespace {
 
-constexpr double slide_efficiency = 0.7;            // speed of a slide over that of a free fall, as gdesp-run expects it
-constexpr int margin = boundary_layer_count + 2;    // columns kept around the reach: the layers' thickness and what lies aslant
+constexpr double slide_efficiency = 0.7;  // speed of a slide over that of a free fall, as gdesp-run expects it
+constexpr int margin =
+    boundary_layer_count + 2;  // columns kept around the reach: the layers' thickness and what lies aslant
 
-struct Cell { int i, j; };
+struct Cell {
+  int i, j;
+};
 
 Cell cell_of(const FillSpace& s, const Vec3d& p) {
   const ColumnGrid& g = s.columns.grid;
@@ -27,7 +30,8 @@ std::vector<bool> open_below(double head, const ColumnIntervals& walls, std::siz
   std::vector<bool> open(columns, true);
   for (std::size_t c = 0; c < columns; ++c) {
     double filled = -INFINITY;
-    for (std::size_t k = walls.first[c]; k < walls.first[c + 1] && walls.interval[k].lower <= filled; ++k) filled = walls.interval[k].upper;
+    for (std::size_t k = walls.first[c]; k < walls.first[c + 1] && walls.interval[k].lower <= filled; ++k)
+      filled = walls.interval[k].upper;
     open[c] = filled < head;
   }
   return open;
@@ -40,7 +44,7 @@ std::vector<bool> widened(const std::vector<bool>& marked, const ColumnGrid& g) 
     int last = -1 - margin;
     for (int i = 0; i < g.nx + margin; ++i) {
       if (i < g.nx && marked[g.index(i, j)]) last = i;
-      const int centre = i - margin;   // sees columns centre - margin .. i
+      const int centre = i - margin;  // sees columns centre - margin .. i
       if (centre >= 0 && last >= centre - margin) row[g.index(centre, j)] = true;
     }
   }
@@ -58,7 +62,8 @@ std::vector<bool> widened(const std::vector<bool>& marked, const ColumnGrid& g) 
 double largest_speed(const PrescribedMotion& motion) {
   double speed = 0.0;
   for (std::size_t k = 1; k < motion.time.size(); ++k) {
-    speed = std::max(speed, norm(motion.displacement[k] - motion.displacement[k - 1]) / (motion.time[k] - motion.time[k - 1]));
+    speed = std::max(speed,
+                     norm(motion.displacement[k] - motion.displacement[k - 1]) / (motion.time[k] - motion.time[k - 1]));
   }
   return speed;
 }
@@ -91,7 +96,8 @@ double default_run_up(const Scene& scene, const SceneParts& parts, const std::ve
   return speed * speed / (2.0 * g);
 }
 
-std::optional<WaterReach> reach_of_water(const FillSpace& s, const ColumnIntervals& walls, const std::vector<Vec3d>& water, double run_up) {
+std::optional<WaterReach> reach_of_water(const FillSpace& s, const ColumnIntervals& walls,
+                                         const std::vector<Vec3d>& water, double run_up) {
   const ColumnGrid& g = s.columns.grid;
   if (water.empty() || g.count() == 0) return std::nullopt;
   WaterReach out;
@@ -124,9 +130,12 @@ WallSurfaces within_reach(const WallSurfaces& walls, const WaterReach& reach, co
   const ColumnGrid& g = s.columns.grid;
   // How many kept columns lie in a rectangle: differences of sums over rectangles from the corner.
   std::vector<std::uint32_t> sum((static_cast<std::size_t>(g.nx) + 1) * (static_cast<std::size_t>(g.ny) + 1), 0);
-  const auto at = [&](int i, int j) -> std::uint32_t& { return sum[static_cast<std::size_t>(j) * (static_cast<std::size_t>(g.nx) + 1) + static_cast<std::size_t>(i)]; };
+  const auto at = [&](int i, int j) -> std::uint32_t& {
+    return sum[static_cast<std::size_t>(j) * (static_cast<std::size_t>(g.nx) + 1) + static_cast<std::size_t>(i)];
+  };
   for (int j = 0; j < g.ny; ++j) {
-    for (int i = 0; i < g.nx; ++i) at(i + 1, j + 1) = at(i, j + 1) + at(i + 1, j) - at(i, j) + (reach.column[g.index(i, j)] ? 1u : 0u);
+    for (int i = 0; i < g.nx; ++i)
+      at(i + 1, j + 1) = at(i, j + 1) + at(i + 1, j) - at(i, j) + (reach.column[g.index(i, j)] ? 1u : 0u);
   }
   WallSurfaces out;
   out.mesh.vertex = walls.mesh.vertex;
@@ -134,7 +143,8 @@ WallSurfaces within_reach(const WallSurfaces& walls, const WaterReach& reach, co
     Box box = empty_box();
     for (int c = 0; c < 3; ++c) extend(box, walls.mesh.vertex[walls.mesh.triangle[t][c]]);
     const Cell low = cell_of(s, box.lower), high = cell_of(s, box.upper);
-    const int i0 = std::max(0, low.i - 1), j0 = std::max(0, low.j - 1), i1 = std::min(g.nx, high.i + 2), j1 = std::min(g.ny, high.j + 2);
+    const int i0 = std::max(0, low.i - 1), j0 = std::max(0, low.j - 1), i1 = std::min(g.nx, high.i + 2),
+              j1 = std::min(g.ny, high.j + 2);
     if (at(i1, j1) - at(i0, j1) - at(i1, j0) + at(i0, j0) == 0) continue;
     out.mesh.triangle.push_back(walls.mesh.triangle[t]);
     out.material.push_back(walls.material[t]);

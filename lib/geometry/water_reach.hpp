@@ -18,9 +18,10 @@
 namespace gdesp::geometry {
 
 struct WaterReach {
-  double head = 0.0;             ///< m, E: no wall particles where the ground is higher
-  std::vector<bool> column;      ///< per column of the fill space: within reach, or nearer to the reach than the walls are thick
-  double share = 1.0;            ///< of the columns that have ground
+  double head = 0.0;  ///< m, E: no wall particles where the ground is higher
+  std::vector<bool>
+      column;          ///< per column of the fill space: within reach, or nearer to the reach than the walls are thick
+  double share = 1.0;  ///< of the columns that have ground
 };
 
 /// Height to which water climbs at the scene's largest expected speed (m): v^2/2g with v = numerics.expected_speed, or without it
@@ -30,7 +31,8 @@ double default_run_up(const Scene& scene, const SceneParts& parts, const std::ve
 
 /// nullopt when there is no water (nothing is left out then). `walls`: what stands still, on the space's columns; `run_up`: m
 /// above the highest water.
-std::optional<WaterReach> reach_of_water(const FillSpace& space, const ColumnIntervals& walls, const std::vector<Vec3d>& water, double run_up);
+std::optional<WaterReach> reach_of_water(const FillSpace& space, const ColumnIntervals& walls,
+                                         const std::vector<Vec3d>& water, double run_up);
 
 /// The triangles that have a column within reach under or over them.
 WallSurfaces within_reach(const WallSurfaces& walls, const WaterReach& reach, const FillSpace& space);

@@ -12,23 +12,26 @@
 namespace gdesp::geometry {
 namespace {
 
-constexpr double moving_reach = 4.0;    // dp, of fitted walls
-constexpr double pace = 0.2;            // b of the step
-constexpr double longest_step = 0.1;    // dp
-constexpr double skin = 0.4;            // dp, of the lists of neighbours, which last for a few steps
+constexpr double moving_reach = 4.0;  // dp, of fitted walls
+constexpr double pace = 0.2;          // b of the step
+constexpr double longest_step = 0.1;  // dp
+constexpr double skin = 0.4;          // dp, of the lists of neighbours, which last for a few steps
 constexpr int renewal = 10;
-constexpr double still = 0.0003;        // dp, mean step at which it counts as settled
+constexpr double still = 0.0003;  // dp, mean step at which it counts as settled
 constexpr int most_steps = 150;
-constexpr double taken = 0.6;           // dp: a lattice place with a particle nearer than this is not empty
+constexpr double taken = 0.6;  // dp: a lattice place with a particle nearer than this is not empty
 
 class WaterRelaxation {
  public:
-  WaterRelaxation(std::vector<Vec3d>& water, const BoundaryTable& boundary, std::size_t first, std::size_t last, const FillSpace& space, double h)
+  WaterRelaxation(std::vector<Vec3d>& water, const BoundaryTable& boundary, std::size_t first, std::size_t last,
+                  const FillSpace& space, double h)
       : water_(water), space_(space), dp_(space.lattice.dp), h_(h), flat_(space.lattice.dimensions == 2) {
-    slope_ = std::pow(dp_, space.lattice.dimensions) * 5.0 * wendland_normalisation(h, space.lattice.dimensions) / (h * h);
+    slope_ =
+        std::pow(dp_, space.lattice.dimensions) * 5.0 * wendland_normalisation(h, space.lattice.dimensions) / (h * h);
     all_ = water;
     all_.insert(all_.end(), boundary.position.begin(), boundary.position.end());
-    const std::vector<Vec3d> fitted(boundary.position.begin() + static_cast<std::ptrdiff_t>(first), boundary.position.begin() + static_cast<std::ptrdiff_t>(last));
+    const std::vector<Vec3d> fitted(boundary.position.begin() + static_cast<std::ptrdiff_t>(first),
+                                    boundary.position.begin() + static_cast<std::ptrdiff_t>(last));
     const PointCells near_walls(fitted, moving_reach * dp_);
     for (std::size_t i = 0; i < water.size(); ++i) {
       bool moves = false;
@@ -80,11 +83,13 @@ class WaterRelaxation {
         }
       }
     }
-    std::set<Index3, bool (*)(const Index3&, const Index3&)> known([](const Index3& a, const Index3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); });
+    std::set<Index3, bool (*)(const Index3&, const Index3&)> known(
+        [](const Index3& a, const Index3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); });
     for (const auto& places : found) {
       for (const Vec3d& p : places) {
         Index3 cell;
-        for (int a = 0; a < 3; ++a) cell[a] = static_cast<std::int32_t>(std::floor((p[a] - space_.lattice.origin[a]) / dp_));
+        for (int a = 0; a < 3; ++a)
+          cell[a] = static_cast<std::int32_t>(std::floor((p[a] - space_.lattice.origin[a]) / dp_));
         if (known.insert(cell).second) all_.push_back(p);
       }
     }
@@ -128,13 +133,15 @@ class WaterRelaxation {
     return std::sqrt(square / static_cast<double>(moving_.size() + 1)) / dp_;
   }
 
-  struct Open { bool axis[3]; };
+  struct Open {
+    bool axis[3];
+  };
 
   std::vector<Vec3d>& water_;
   const FillSpace& space_;
   double dp_, h_, slope_;
   bool flat_;
-  std::vector<Vec3d> all_;                             // water, walls, and what air there is near by
+  std::vector<Vec3d> all_;  // water, walls, and what air there is near by
   std::vector<std::uint32_t> moving_;
   std::vector<Vec3d> step_;
   std::vector<Open> open_;
@@ -143,7 +150,8 @@ class WaterRelaxation {
 
 }  // namespace
 
-void relax_water(std::vector<Vec3d>& water, const BoundaryTable& boundary, std::size_t first, std::size_t last, const FillSpace& space, double h) {
+void relax_water(std::vector<Vec3d>& water, const BoundaryTable& boundary, std::size_t first, std::size_t last,
+                 const FillSpace& space, double h) {
   if (first < last && !water.empty()) WaterRelaxation(water, boundary, first, last, space, h).run();
 }
 

@@ -15,6 +15,7 @@ namespace gdesp::geometry {
 
 /// Moves the water near the wall particles [first, last) of `boundary`; h: smoothing length (m). All wall particles count as neighbours.
 /// Deterministic for any number of threads.
-void relax_water(std::vector<Vec3d>& water, const BoundaryTable& boundary, std::size_t first, std::size_t last, const FillSpace& space, double h);
+void relax_water(std::vector<Vec3d>& water, const BoundaryTable& boundary, std::size_t first, std::size_t last,
+                 const FillSpace& space, double h);
 
 }  // namespace gdesp::geometry

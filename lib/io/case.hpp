@@ -11,7 +11,9 @@
 
 namespace gdesp {
 
-struct SourceFile { std::string path, sha256; };
+struct SourceFile {
+  std::string path, sha256;
+};
 
 struct Case {
   Scene scene;
@@ -22,7 +24,7 @@ struct Case {
   FluidTable fluid;
   BoundaryTable boundary;
   GrainTable grains;
-  TriangleTable walls;             ///< what grains collide with, and what pictures show; bodies included
+  TriangleTable walls;  ///< what grains collide with, and what pictures show; bodies included
   std::vector<Body> bodies;
   std::vector<SourceFile> sources;
 };

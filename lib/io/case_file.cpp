@@ -109,14 +109,17 @@ void write_parts(const SafeFolder& folder, const Case& c, const std::vector<std:
   write_text_file(folder.in("case.toml"), scene_to_toml(c.scene) + case_table(c, files));
 }
 
-[[noreturn]] void refuse(const std::string& path, const std::string& what) { throw Error(ErrorKind::input, path + ": " + what); }
+[[noreturn]] void refuse(const std::string& path, const std::string& what) {
+  throw Error(ErrorKind::input, path + ": " + what);
+}
 
 void check_count(const std::string& path, const char* what, std::size_t found, std::uint64_t stated) {
   if (found != stated)
     refuse(path, "holds " + std::to_string(found) + " " + what + ", case.toml says " + std::to_string(stated));
 }
 
-void check_finite(const std::string& path, const char* what, const float* values, std::size_t count, std::size_t parts) {
+void check_finite(const std::string& path, const char* what, const float* values, std::size_t count,
+                  std::size_t parts) {
   for (std::size_t i = 0; i < count * parts; ++i)
     if (!std::isfinite(values[i]))
       refuse(path, std::string(what) + " of point " + std::to_string(i / parts) + " is not finite");
@@ -200,7 +203,8 @@ void read_parts(const fs::path& folder, const CaseCounts& stated, Case& c) {
 void check_overrides(const std::vector<Override>& overrides) {
   for (const Override& o : overrides) {
     bool free = o.key == "fluid.kinematic_viscosity";
-    for (const char* table : {"time.", "numerics.", "coupling.", "contact.", "economy."}) free = free || o.key.starts_with(table);
+    for (const char* table : {"time.", "numerics.", "coupling.", "contact.", "economy."})
+      free = free || o.key.starts_with(table);
     if (free) continue;
     throw Error(ErrorKind::input, "--set " + o.key + ": the case's particles were made with it; give it to " +
                                       "mesh2particles (here: time.*, numerics.*, coupling.*, contact.*, economy.*, " +

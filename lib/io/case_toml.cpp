@@ -29,8 +29,9 @@ const char* kind_name(BodyKind kind) {
 }
 
 std::string far_lake_table(const FarLakeShape& lake) {
-  return "far_lake = {length = " + toml_number(lake.length) + ", depth = " + toml_number(lake.depth) + ", width = " + toml_number(lake.width) +
-         ", columns = " + std::to_string(lake.columns) + ", side = " + toml_number(lake.side) + ", wall = " + toml_number(lake.wall) +
+  return "far_lake = {length = " + toml_number(lake.length) + ", depth = " + toml_number(lake.depth) +
+         ", width = " + toml_number(lake.width) + ", columns = " + std::to_string(lake.columns) +
+         ", side = " + toml_number(lake.side) + ", wall = " + toml_number(lake.wall) +
          ", level = " + toml_number(lake.level) + "}\n";
 }
 
@@ -144,7 +145,8 @@ void read_hold(const Values& values, Body& body) {
   const json* fixed = values.find("fixed");
   if (!fixed) return;
   const auto is_truth = [](const json& one) { return one.is_boolean(); };
-  if (!fixed->is_array() || fixed->size() != 4 || !std::all_of(fixed->begin(), fixed->end(), is_truth)) values.fail("fixed", "4 of true, false");
+  if (!fixed->is_array() || fixed->size() != 4 || !std::all_of(fixed->begin(), fixed->end(), is_truth))
+    values.fail("fixed", "4 of true, false");
   for (std::size_t k = 0; k < 4; ++k) body.fixed[k] = (*fixed)[k].get<bool>();
 }
 
@@ -168,9 +170,12 @@ Body body_of(const Values& values) {
   Body body;
   body.name = values.text("name");
   const std::string kind = values.text("kind");
-  if (kind == "free") body.kind = BodyKind::free;
-  else if (kind == "far-lake") body.kind = BodyKind::far_lake;
-  else if (kind != "prescribed") values.fail("kind", "\"free\", \"prescribed\" or \"far-lake\"");
+  if (kind == "free")
+    body.kind = BodyKind::free;
+  else if (kind == "far-lake")
+    body.kind = BodyKind::far_lake;
+  else if (kind != "prescribed")
+    values.fail("kind", "\"free\", \"prescribed\" or \"far-lake\"");
   if (body.kind == BodyKind::far_lake) body.far_lake = far_lake_of(values.table("far_lake"));
   body.motion = motion_of(values);
   body.centre = values.vector("centre");
@@ -195,7 +200,8 @@ CaseCounts counts_of(const Case& c) {
 
 std::string case_table(const Case& c, const std::vector<std::string>& files) {
   const CaseCounts n = counts_of(c);
-  std::string out = "\n# Written by mesh2particles; positions in the files are scene coordinates minus offset.\n[case]\n";
+  std::string out =
+      "\n# Written by mesh2particles; positions in the files are scene coordinates minus offset.\n[case]\n";
   out += "format = " + std::to_string(case_format) + "\n";
   out += "written_by = " + toml_string(std::string("gdesp ") + version + " " + commit) + "\n";
   out += "scene = " + toml_string(c.scene.path) + "\n";
@@ -230,7 +236,8 @@ CaseCounts read_case_table(const std::string& path, Case& c) {
   c.still_water_level = values.number("still_water_level", 0.0);
   c.terrain_top = values.number("terrain_top", 0.0);
   for (const Values& body : values.tables("body")) c.bodies.push_back(body_of(body));
-  for (const Values& source : values.tables("source")) c.sources.push_back({source.text("path"), source.text("sha256")});
+  for (const Values& source : values.tables("source"))
+    c.sources.push_back({source.text("path"), source.text("sha256")});
   const Values counts = values.table("counts");
   return {counts.count("fluid"),         counts.count("boundary"),       counts.count("grains"),
           counts.count("wall_vertices"), counts.count("wall_triangles"), counts.count("bodies")};

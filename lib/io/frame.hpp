@@ -13,20 +13,28 @@
 namespace gdesp {
 
 /// `force` (N) and `torque` (N m, about the centre): on a free body, of all but gravity; on another, of the water.
-struct BodyState { Vec3d centre, velocity, angular_velocity; double orientation[4] = {1, 0, 0, 0}; Vec3d force, torque; };
+struct BodyState {
+  Vec3d centre, velocity, angular_velocity;
+  double orientation[4] = {1, 0, 0, 0};
+  Vec3d force, torque;
+};
 
 struct Frame {
-  double time = 0.0;               ///< s
+  double time = 0.0;  ///< s
   std::int64_t step = 0;
   FluidTable fluid;
   GrainTable grains;
-  TriangleTable bodies;            ///< surfaces of moving bodies, at their place now
+  TriangleTable bodies;  ///< surfaces of moving bodies, at their place now
   std::vector<BodyState> body_states;
   std::vector<FarLakeTable> far_lakes;
 };
 
 /// Where one frame's parts lie; empty where there is no such part.
-struct FramePaths { std::string fluid, grains, bodies; double time = 0.0; std::int64_t step = 0; };
+struct FramePaths {
+  std::string fluid, grains, bodies;
+  double time = 0.0;
+  std::int64_t step = 0;
+};
 
 /// Writes frames of one run, each part aside and renamed when complete, and keeps the .pvd series up to date.
 /// VTP, inline binary, which every ParaView reads. Field names: velocity, density, pressure, porosity, id;
@@ -49,10 +57,17 @@ class FrameWriter {
 };
 
 /// Maps this project's field names to another program's: {"velocity", "Vel"}.
-struct FieldMapping { std::string ours, theirs; };
+struct FieldMapping {
+  std::string ours, theirs;
+};
 
 /// What a particle file says beside its particles.
-struct FrameMeta { double time = 0.0; double dp = 0.0; Vec3d offset; bool has_time = false; };
+struct FrameMeta {
+  double time = 0.0;
+  double dp = 0.0;
+  Vec3d offset;
+  bool has_time = false;
+};
 
 /// Reads fluid (or grain) particles from VTP, VTU, legacy VTK or an OpenVDB points file, own or foreign.
 FluidTable read_fluid_frame(const std::string& path, const std::vector<FieldMapping>& mapping, FrameMeta* meta);

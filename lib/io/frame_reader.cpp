@@ -32,15 +32,18 @@ TriangleTable read_triangles_vtp(const std::string& path) { return triangles_of(
 namespace {
 
 std::vector<FarLakeTable> far_lakes_of(const PointSource& source, const std::string& path) {
-  const std::vector<double> count = source.field("far_lake_columns"), x = source.field("far_lake_x"), level = source.field("far_lake_level"),
-                            velocity = source.field("far_lake_velocity");
+  const std::vector<double> count = source.field("far_lake_columns"), x = source.field("far_lake_x"),
+                            level = source.field("far_lake_level"), velocity = source.field("far_lake_velocity");
   std::vector<FarLakeTable> lakes;
   std::size_t at = 0;
   for (const double n : count) {
-    if (!(n >= 0.0) || n > static_cast<double>(x.size() - at) || x.size() != level.size() || x.size() != velocity.size())
+    if (!(n >= 0.0) || n > static_cast<double>(x.size() - at) || x.size() != level.size() ||
+        x.size() != velocity.size())
       throw Error(ErrorKind::input, path + ": the fields far_lake_* do not belong together");
     const auto begin = static_cast<std::ptrdiff_t>(at), end = begin + static_cast<std::ptrdiff_t>(n);
-    lakes.push_back({{x.begin() + begin, x.begin() + end}, {level.begin() + begin, level.begin() + end}, {velocity.begin() + begin, velocity.begin() + end}});
+    lakes.push_back({{x.begin() + begin, x.begin() + end},
+                     {level.begin() + begin, level.begin() + end},
+                     {velocity.begin() + begin, velocity.begin() + end}});
     at = static_cast<std::size_t>(end);
   }
   return lakes;

@@ -21,7 +21,8 @@ void check_folder(const fs::path& folder, bool force, bool resume) {
   if (!fs::exists(folder) || resume) return;
   if (!fs::is_directory(folder)) throw Error(ErrorKind::usage, folder.string() + ": is a file, expected a run folder");
   if (fs::is_empty(folder)) return;
-  if (!force) throw Error(ErrorKind::usage, folder.string() + ": exists already; --force replaces it, --resume goes on");
+  if (!force)
+    throw Error(ErrorKind::usage, folder.string() + ": exists already; --force replaces it, --resume goes on");
   if (!is_run(folder))
     throw Error(ErrorKind::usage, folder.string() + ": is a folder but no run (it has no frames): not replaced");
 }
@@ -125,8 +126,8 @@ FramePaths FrameWriter::write(const Frame& frame) {
   written_.push_back(paths);
   next_ = static_cast<int>(written_.size());
   for (const char* kind : frame_kinds) {
-    const bool any = std::any_of(written_.begin(), written_.end(),
-                                 [&](FramePaths& f) { return !frame_path(f, kind).empty(); });
+    const bool any =
+        std::any_of(written_.begin(), written_.end(), [&](FramePaths& f) { return !frame_path(f, kind).empty(); });
     const std::string series = folder_ + "/" + kind + ".pvd";
     if (any || fs::exists(series)) write_text_file(series, pvd_text(folder_, kind, written_));
   }

@@ -30,7 +30,8 @@ namespace {
 class SharedFile {
  public:
   SharedFile() : descriptor_(::memfd_create("gdesp-points", MFD_CLOEXEC)) {
-    if (descriptor_ < 0) throw Error(ErrorKind::resource, std::string("no memory to read a file: ") + std::strerror(errno));
+    if (descriptor_ < 0)
+      throw Error(ErrorKind::resource, std::string("no memory to read a file: ") + std::strerror(errno));
   }
   ~SharedFile() { ::close(descriptor_); }
   SharedFile(const SharedFile&) = delete;
@@ -127,9 +128,11 @@ bool sound(const MemoryPoints& points) {
       return false;
   const auto count = std::int64_t(points.position.size());
   for (const Vec3<std::int32_t>& t : points.surface.triangle)
-    for (const std::int32_t v : {t.x, t.y, t.z}) if (v < 0 || v >= count) return false;
+    for (const std::int32_t v : {t.x, t.y, t.z})
+      if (v < 0 || v >= count) return false;
   const std::size_t smooth = points.surface.smooth.size();
-  return points.surface.body.size() == points.surface.triangle.size() && (smooth == 0 || smooth == points.surface.triangle.size());
+  return points.surface.body.size() == points.surface.triangle.size() &&
+         (smooth == 0 || smooth == points.surface.triangle.size());
 }
 
 bool receive(SharedFile& file, MemoryPoints& points) {
@@ -197,17 +200,13 @@ void confine(std::size_t file_size) {
     kind = static_cast<int>(error.kind());
   } catch (const std::exception& error) {  // sizes that lie end in bad_alloc or length_error
     refusal = path + ": " + library + " cannot read it: " + error.what();
-  } catch (...) {
-    refusal = path + ": " + library + " cannot read it";
-  }
+  } catch (...) { refusal = path + ": " + library + " cannot read it"; }
   try {
     put(file, Outcome::refused);
     put(file, kind);
     put_text(file, refusal);
     ::_exit(0);
-  } catch (...) {
-    ::_exit(1);
-  }
+  } catch (...) { ::_exit(1); }
 }
 
 /// Waits for the child, within a wall-clock limit; its wait status.
@@ -242,7 +241,8 @@ std::size_t length_of(const std::string& path) {
 }  // namespace
 
 const MemoryColumn* MemoryPoints::find(const std::string& name) const {
-  for (const MemoryColumn& column : columns) if (column.name == name) return &column;
+  for (const MemoryColumn& column : columns)
+    if (column.name == name) return &column;
   return nullptr;
 }
 
@@ -259,20 +259,27 @@ int MemoryPoints::components(const std::string& name) const {
 
 void MemoryPoints::read(const std::string& name, float* values) const {
   const MemoryColumn& column = *find(name);
-  if (column.numbers.empty()) std::transform(column.integers.begin(), column.integers.end(), values,
-                                             [](std::int64_t v) { return static_cast<float>(v); });
-  else std::copy(column.numbers.begin(), column.numbers.end(), values);
+  if (column.numbers.empty())
+    std::transform(column.integers.begin(), column.integers.end(), values,
+                   [](std::int64_t v) { return static_cast<float>(v); });
+  else
+    std::copy(column.numbers.begin(), column.numbers.end(), values);
 }
 
 void MemoryPoints::read(const std::string& name, std::int64_t* values) const {
   const MemoryColumn& column = *find(name);
-  const auto whole = [](float v) { return v >= -9e15f && v <= 9e15f ? static_cast<std::int64_t>(v) : std::int64_t(-1); };
-  if (column.numbers.empty()) std::copy(column.integers.begin(), column.integers.end(), values);
-  else std::transform(column.numbers.begin(), column.numbers.end(), values, whole);
+  const auto whole = [](float v) {
+    return v >= -9e15f && v <= 9e15f ? static_cast<std::int64_t>(v) : std::int64_t(-1);
+  };
+  if (column.numbers.empty())
+    std::copy(column.integers.begin(), column.integers.end(), values);
+  else
+    std::transform(column.numbers.begin(), column.numbers.end(), values, whole);
 }
 
 std::vector<double> MemoryPoints::field(const std::string& name) const {
-  for (const MemoryField& one : fields) if (one.name == name) return one.values;
+  for (const MemoryField& one : fields)
+    if (one.name == name) return one.values;
   return {};
 }
 

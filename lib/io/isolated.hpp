@@ -17,11 +17,14 @@ namespace gdesp {
 struct MemoryColumn {
   std::string name;
   int components = 1;
-  std::vector<float> numbers;          ///< empty when the column holds whole numbers
+  std::vector<float> numbers;  ///< empty when the column holds whole numbers
   std::vector<std::int64_t> integers;
 };
 
-struct MemoryField { std::string name; std::vector<double> values; };
+struct MemoryField {
+  std::string name;
+  std::vector<double> values;
+};
 
 /// A point file in memory.
 struct MemoryPoints : PointSource {

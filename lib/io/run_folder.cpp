@@ -49,12 +49,13 @@ void read_pvd(const fs::path& folder, const std::string& kind, std::map<int, Fra
     const std::size_t digits = file.rfind('_');
     FramePaths frame;
     int number = 0;
-    const bool sound = digits != std::string::npos && file.size() > digits + 5 && file.find("..") == std::string::npos &&
-                       parse_number(attribute(line, "timestep"), frame.time) && std::isfinite(frame.time) &&
+    const bool sound = digits != std::string::npos && file.size() > digits + 5 &&
+                       file.find("..") == std::string::npos && parse_number(attribute(line, "timestep"), frame.time) &&
+                       std::isfinite(frame.time) &&
                        parse_number(file.substr(digits + 1, file.size() - digits - 5), number);
     if (!sound)
-      throw Error(ErrorKind::input, path.string() + ":" + std::to_string(line_number) + ": not a frame of this run: " +
-                                        line.substr(0, 100));
+      throw Error(ErrorKind::input, path.string() + ":" + std::to_string(line_number) +
+                                        ": not a frame of this run: " + line.substr(0, 100));
     const std::size_t comment = line.find("<!-- step ");
     if (comment != std::string::npos)
       std::from_chars(line.data() + comment + 10, line.data() + line.size(), frame.step);
@@ -105,7 +106,8 @@ std::vector<FramePaths> list_frames(const std::string& run_folder) {
 std::string run_case_path(const std::string& run_folder) {
   const fs::path link = fs::path(run_folder) / "case.link";
   std::error_code ignored;
-  if (!fs::is_directory(run_folder, ignored)) throw Error(ErrorKind::input, run_folder + ": there is no such run folder");
+  if (!fs::is_directory(run_folder, ignored))
+    throw Error(ErrorKind::input, run_folder + ": there is no such run folder");
   if (!fs::exists(link, ignored))
     throw Error(ErrorKind::input, run_folder + ": has no case.link, so its case is not known");
   std::string text = read_text_file(link.string(), 65536);

@@ -72,9 +72,12 @@ std::string read_text_file(const std::string& path, std::size_t largest) {
   struct stat status {};
   std::string text;
   const char* trouble = nullptr;
-  if (::fstat(descriptor, &status) != 0) trouble = std::strerror(errno);
-  else if (S_ISDIR(status.st_mode)) trouble = "it is a folder, expected a file";
-  else if (static_cast<std::size_t>(status.st_size) > largest) trouble = "it is larger than such a file can be";
+  if (::fstat(descriptor, &status) != 0)
+    trouble = std::strerror(errno);
+  else if (S_ISDIR(status.st_mode))
+    trouble = "it is a folder, expected a file";
+  else if (static_cast<std::size_t>(status.st_size) > largest)
+    trouble = "it is larger than such a file can be";
   char block[65536];
   while (!trouble) {
     const ssize_t n = ::read(descriptor, block, sizeof block);

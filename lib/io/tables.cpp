@@ -17,8 +17,8 @@ class Columns {
       : source_(source), path_(path), mapping_(mapping) {
     for (const FieldMapping& m : mapping)
       if (source.components(m.theirs) == 0)
-        throw Error(ErrorKind::input, path + ": has no field \"" + m.theirs + "\" for " + m.ours + "; it has: " +
-                                          join(source.names()));
+        throw Error(ErrorKind::input,
+                    path + ": has no field \"" + m.theirs + "\" for " + m.ours + "; it has: " + join(source.names()));
   }
 
   void read(const char* name, std::vector<float>& out) const { read_as<float>(name, 1, out); }
@@ -30,7 +30,8 @@ class Columns {
     read_as<std::int64_t>(name, 1, wide);
     out.resize(wide.size());
     for (std::size_t i = 0; i < wide.size(); ++i) {
-      if (wide[i] < std::int64_t(std::numeric_limits<Int>::min()) || wide[i] > std::int64_t(std::numeric_limits<Int>::max()))
+      if (wide[i] < std::int64_t(std::numeric_limits<Int>::min()) ||
+          wide[i] > std::int64_t(std::numeric_limits<Int>::max()))
         throw Error(ErrorKind::input, path_ + ": " + name + " of point " + std::to_string(i) + " is out of range");
       out[i] = static_cast<Int>(wide[i]);
     }
@@ -48,7 +49,8 @@ class Columns {
 
  private:
   std::string theirs(const char* name) const {
-    for (const FieldMapping& m : mapping_) if (m.ours == name) return m.theirs;
+    for (const FieldMapping& m : mapping_)
+      if (m.ours == name) return m.theirs;
     return name;
   }
 
@@ -96,7 +98,8 @@ void write_boundary(const std::string& path, const BoundaryTable& b, std::vector
   VtpContent content;
   content.position = &b.position;
   content.field = std::move(field);
-  content.points = {vtp_array("normal", b.normal), vtp_array("depth", b.depth), vtp_array("friction", b.friction), vtp_array("body", b.body),
+  content.points = {vtp_array("normal", b.normal),     vtp_array("depth", b.depth),
+                    vtp_array("friction", b.friction), vtp_array("body", b.body),
                     vtp_array("velocity", b.velocity), vtp_array("pressure", b.pressure)};
   write_vtp(path, content);
 }
@@ -174,7 +177,8 @@ FrameMeta meta_of(const PointSource& source) {
   }
   const std::vector<double> dp = source.field("dp"), offset = source.field("offset");
   if (!dp.empty() && std::isfinite(dp[0]) && dp[0] > 0.0) meta.dp = dp[0];
-  if (offset.size() == 3 && std::isfinite(offset[0] + offset[1] + offset[2])) meta.offset = {offset[0], offset[1], offset[2]};
+  if (offset.size() == 3 && std::isfinite(offset[0] + offset[1] + offset[2]))
+    meta.offset = {offset[0], offset[1], offset[2]};
   return meta;
 }
 

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/foreign_guard.hpp"
-
 #include <cstdint>
 #include <fstream>
 
 #include "core/error.hpp"
+#include "io/foreign_guard.hpp"
 
 namespace gdesp {
 namespace {
 
-constexpr std::int64_t magic = 0x56444220;      // " BDV"
-constexpr std::uint32_t oldest_version = 222;   // the first with this layout; OpenVDB 3 and later
+constexpr std::int64_t magic = 0x56444220;     // " BDV"
+constexpr std::uint32_t oldest_version = 222;  // the first with this layout; OpenVDB 3 and later
 constexpr std::size_t uuid_size = 36;
 
 class VdbHeader {
@@ -33,8 +32,8 @@ class VdbHeader {
     if (!has_offsets || grids < 0) refuse("it has no table of grids");
     for (std::int32_t i = 0; i < grids; ++i) {
       for (int text = 0; text < 3; ++text) skip(number<std::uint32_t>());  // name, type, parent
-      number<std::int64_t>();                                            // start of the grid
-      number<std::int64_t>();                                            // start of its blocks
+      number<std::int64_t>();                                              // start of the grid
+      number<std::int64_t>();                                              // start of its blocks
       const auto end = number<std::int64_t>();
       if (end < in_.tellg() || end > size_)
         refuse("grid " + std::to_string(i) + " ends at byte " + std::to_string(end) + " of " + std::to_string(size_));

@@ -47,21 +47,30 @@ void take(const PointDataGrid& grid, const std::string& name, std::vector<Item>&
     const AttributeHandle<Value> handle(leaf->constAttributeArray(name));
     for (auto index = leaf->beginIndexOn(); index; ++index) {
       const Value value = handle.get(*index);
-      if constexpr (openvdb::VecTraits<Value>::IsVec) for (int k = 0; k < 3; ++k) out.push_back(static_cast<Item>(value[k]));
-      else out.push_back(static_cast<Item>(value));
+      if constexpr (openvdb::VecTraits<Value>::IsVec)
+        for (int k = 0; k < 3; ++k) out.push_back(static_cast<Item>(value[k]));
+      else
+        out.push_back(static_cast<Item>(value));
     }
   }
 }
 
 void take_column(const PointDataGrid& grid, const std::string& name, const std::string& type, MemoryPoints& points) {
   MemoryColumn column{name, type.starts_with("vec3") ? 3 : 1, {}, {}};
-  if (type == "float") take<float>(grid, name, column.numbers);
-  else if (type == "double") take<double>(grid, name, column.numbers);
-  else if (type == "vec3s") take<openvdb::Vec3f>(grid, name, column.numbers);
-  else if (type == "vec3d") take<openvdb::Vec3d>(grid, name, column.numbers);
-  else if (type == "int32") take<std::int32_t>(grid, name, column.integers);
-  else if (type == "int64") take<std::int64_t>(grid, name, column.integers);
-  else return;
+  if (type == "float")
+    take<float>(grid, name, column.numbers);
+  else if (type == "double")
+    take<double>(grid, name, column.numbers);
+  else if (type == "vec3s")
+    take<openvdb::Vec3f>(grid, name, column.numbers);
+  else if (type == "vec3d")
+    take<openvdb::Vec3d>(grid, name, column.numbers);
+  else if (type == "int32")
+    take<std::int32_t>(grid, name, column.integers);
+  else if (type == "int64")
+    take<std::int64_t>(grid, name, column.integers);
+  else
+    return;
   points.columns.push_back(std::move(column));
 }
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/foreign_guard.hpp"
-
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
 #include <string_view>
 
 #include "core/error.hpp"
+#include "io/foreign_guard.hpp"
 #include "io/safe_file.hpp"
 
 namespace gdesp {
@@ -49,9 +48,9 @@ void check_xml(const std::string& path, std::string_view text) {
 /// Legacy: after a keyword at the start of a line, the numbers that follow are sizes.
 void check_legacy(const std::string& path, std::string_view text) {
   if (!text.starts_with("# vtk DataFile")) refuse(path, "it does not start with \"# vtk DataFile\"");
-  for (const std::string_view word : {"POINTS", "VERTICES", "LINES", "POLYGONS", "TRIANGLE_STRIPS", "CELLS",
-                                      "CELL_TYPES", "POINT_DATA", "CELL_DATA", "FIELD", "DIMENSIONS", "OFFSETS",
-                                      "CONNECTIVITY", "LOOKUP_TABLE"})
+  for (const std::string_view word :
+       {"POINTS", "VERTICES", "LINES", "POLYGONS", "TRIANGLE_STRIPS", "CELLS", "CELL_TYPES", "POINT_DATA", "CELL_DATA",
+        "FIELD", "DIMENSIONS", "OFFSETS", "CONNECTIVITY", "LOOKUP_TABLE"})
     for (std::size_t at = text.find(word); at != std::string_view::npos; at = text.find(word, at + 1)) {
       if (at > 0 && text[at - 1] != '\n') continue;
       const std::string_view line = text.substr(at, std::min<std::size_t>(200, text.find('\n', at) - at));
@@ -65,8 +64,10 @@ void check_legacy(const std::string& path, std::string_view text) {
 void refuse_implausible_vtk(const std::string& path) {
   const std::string text = read_text_file(path, largest_file);
   if (text.empty()) refuse(path, "it is empty");
-  if (path.ends_with(".vtk")) check_legacy(path, text);
-  else check_xml(path, text);
+  if (path.ends_with(".vtk"))
+    check_legacy(path, text);
+  else
+    check_xml(path, text);
 }
 
 }  // namespace gdesp

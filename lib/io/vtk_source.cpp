@@ -89,17 +89,22 @@ void take_columns(const std::string& path, vtkPointSet& data, MemoryPoints& poin
     vtkDataArray* a = data.GetPointData()->GetArray(i);
     if (!a || !a->GetName()) continue;
     if (a->GetNumberOfTuples() != data.GetNumberOfPoints())
-      throw Error(ErrorKind::input, path + ": field " + a->GetName() + " has " + std::to_string(a->GetNumberOfTuples()) +
-                                        " values for " + std::to_string(data.GetNumberOfPoints()) + " points");
+      throw Error(ErrorKind::input, path + ": field " + a->GetName() + " has " +
+                                        std::to_string(a->GetNumberOfTuples()) + " values for " +
+                                        std::to_string(data.GetNumberOfPoints()) + " points");
     MemoryColumn column{a->GetName(), a->GetNumberOfComponents(), {}, {}};
     const auto values = std::size_t(a->GetNumberOfTuples()) * std::size_t(column.components);
-    if (holds_integers(*a)) column.integers.reserve(values);
-    else column.numbers.reserve(values);
+    if (holds_integers(*a))
+      column.integers.reserve(values);
+    else
+      column.numbers.reserve(values);
     for (vtkIdType k = 0; k < a->GetNumberOfTuples(); ++k)
       for (int c = 0; c < column.components; ++c) {
         const double value = a->GetComponent(k, c);
-        if (holds_integers(*a)) column.integers.push_back(value >= -9e15 && value <= 9e15 ? std::int64_t(value) : -1);
-        else column.numbers.push_back(static_cast<float>(value));
+        if (holds_integers(*a))
+          column.integers.push_back(value >= -9e15 && value <= 9e15 ? std::int64_t(value) : -1);
+        else
+          column.numbers.push_back(static_cast<float>(value));
       }
     points.columns.push_back(std::move(column));
   }
@@ -142,9 +147,12 @@ void take_triangles(const std::string& path, vtkPointSet& data, MemoryPoints& po
 void read_by_vtk(const std::string& path, MemoryPoints& points) {
   refuse_implausible_vtk(path);
   vtkSmartPointer<vtkPointSet> data;
-  if (path.ends_with(".vtp")) data = read_file<vtkXMLPolyDataReader>(path);
-  else if (path.ends_with(".vtu")) data = read_file<vtkXMLUnstructuredGridReader>(path);
-  else data = read_file<vtkDataSetReader>(path);
+  if (path.ends_with(".vtp"))
+    data = read_file<vtkXMLPolyDataReader>(path);
+  else if (path.ends_with(".vtu"))
+    data = read_file<vtkXMLUnstructuredGridReader>(path);
+  else
+    data = read_file<vtkDataSetReader>(path);
   points.position.resize(static_cast<std::size_t>(data->GetNumberOfPoints()));
   for (std::size_t i = 0; i < points.position.size(); ++i) {
     double xyz[3];

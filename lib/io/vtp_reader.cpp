@@ -31,7 +31,8 @@ class PlainVtp : public PointSource {
 
   std::vector<std::string> names() const override {
     std::vector<std::string> out;
-    for (const VtpArrayText& a : text_.arrays) if (a.section == "PointData") out.push_back(a.name);
+    for (const VtpArrayText& a : text_.arrays)
+      if (a.section == "PointData") out.push_back(a.name);
     return out;
   }
   int components(const std::string& name) const override {
@@ -56,7 +57,8 @@ class PlainVtp : public PointSource {
     const VtpArrayText *body = text_.find("CellData", "body"), *smooth = text_.find("CellData", "smooth");
     const std::vector<std::int32_t> of = body ? text_.read<std::int32_t>(*body) : std::vector<std::int32_t>();
     const std::vector<std::int32_t> slides = smooth ? text_.read<std::int32_t>(*smooth) : std::vector<std::int32_t>();
-    if (end.size() != text_.triangles || (body && of.size() != text_.triangles) || (smooth && slides.size() != text_.triangles))
+    if (end.size() != text_.triangles || (body && of.size() != text_.triangles) ||
+        (smooth && slides.size() != text_.triangles))
       text_.damaged("it says " + std::to_string(text_.triangles) + " polygons and holds " + std::to_string(end.size()));
     std::int64_t start = 0;
     for (std::size_t i = 0; i < end.size(); ++i) {
@@ -71,7 +73,8 @@ class PlainVtp : public PointSource {
 
  private:
   const VtpArrayText* points_array() const {
-    for (const VtpArrayText& a : text_.arrays) if (a.section == "Points") return &a;
+    for (const VtpArrayText& a : text_.arrays)
+      if (a.section == "Points") return &a;
     return nullptr;
   }
 
@@ -100,9 +103,7 @@ class PlainVtp : public PointSource {
 std::unique_ptr<PointSource> open_plain_vtp(const std::string& path) {
   try {
     return std::make_unique<PlainVtp>(path);
-  } catch (const OtherVtpFlavour&) {
-    return nullptr;
-  }
+  } catch (const OtherVtpFlavour&) { return nullptr; }
 }
 
 }  // namespace gdesp

@@ -65,7 +65,8 @@ struct Head {
     if (content.size() < text) return;
     char copy[12];
     std::memcpy(copy, content.data(), text);
-    for (std::size_t i = text - 2; i < text; ++i) if (copy[i] == '=') copy[i] = 'A';
+    for (std::size_t i = text - 2; i < text; ++i)
+      if (copy[i] == '=') copy[i] = 'A';
     sound = base64_decode(copy, text / 4 * 3, bytes);
     std::memcpy(&count, bytes, header_size);
   }
@@ -86,10 +87,11 @@ void convert(const unsigned char* bytes, std::size_t count, To* out) {
 }
 
 template <class T>
-constexpr ScalarType scalar_type =
-    std::is_same_v<T, float> ? ScalarType::float32
-                             : (std::is_same_v<T, double> ? ScalarType::float64
-                                                          : (sizeof(T) == 8 ? ScalarType::int64 : ScalarType::int32));
+constexpr ScalarType scalar_type = std::is_same_v<T, float>
+                                       ? ScalarType::float32
+                                       : (std::is_same_v<T, double>
+                                              ? ScalarType::float64
+                                              : (sizeof(T) == 8 ? ScalarType::int64 : ScalarType::int32));
 
 }  // namespace
 
@@ -119,7 +121,8 @@ void VtpText::load() {
 }
 
 const VtpArrayText* VtpText::find(const std::string& section, const std::string& name) const {
-  for (const VtpArrayText& a : arrays) if (a.section == section && a.name == name) return &a;
+  for (const VtpArrayText& a : arrays)
+    if (a.section == section && a.name == name) return &a;
   return nullptr;
 }
 
@@ -131,9 +134,9 @@ std::size_t VtpText::byte_count(const VtpArrayText& a) const {
   if (a.content.empty()) return 0;
   const Head head(a.content, header_size_);
   if (!head.sound) damaged("array " + a.name + " has no byte count");
-  const bool fits = head.count <= a.content.size() &&
-                    (a.content.size() == base64_size(header_size_ + head.count) ||
-                     a.content.size() == base64_size(header_size_) + base64_size(head.count));
+  const bool fits =
+      head.count <= a.content.size() && (a.content.size() == base64_size(header_size_ + head.count) ||
+                                         a.content.size() == base64_size(header_size_) + base64_size(head.count));
   if (!fits || head.count % size_of(a.type) != 0)
     damaged("array " + a.name + " says " + std::to_string(head.count) + " bytes and holds about " +
             std::to_string(a.content.size() / 4 * 3));
@@ -163,12 +166,18 @@ void VtpText::read(const VtpArrayText& a, std::size_t expected, T* values) const
   std::vector<unsigned char> raw(bytes);
   decode(a, bytes, raw.data());
   switch (a.type) {
-    case ScalarType::float32: return convert<float>(raw.data(), found, values);
-    case ScalarType::float64: return convert<double>(raw.data(), found, values);
-    case ScalarType::int32: return convert<std::int32_t>(raw.data(), found, values);
-    case ScalarType::uint32: return convert<std::uint32_t>(raw.data(), found, values);
-    case ScalarType::int64: return convert<std::int64_t>(raw.data(), found, values);
-    case ScalarType::uint8: return convert<std::uint8_t>(raw.data(), found, values);
+    case ScalarType::float32:
+      return convert<float>(raw.data(), found, values);
+    case ScalarType::float64:
+      return convert<double>(raw.data(), found, values);
+    case ScalarType::int32:
+      return convert<std::int32_t>(raw.data(), found, values);
+    case ScalarType::uint32:
+      return convert<std::uint32_t>(raw.data(), found, values);
+    case ScalarType::int64:
+      return convert<std::int64_t>(raw.data(), found, values);
+    case ScalarType::uint8:
+      return convert<std::uint8_t>(raw.data(), found, values);
   }
 }
 
@@ -183,8 +192,8 @@ std::size_t VtpText::number(const VtpTag& tag, std::string_view key) const {
   std::size_t value = 0;
   const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
   if (result.ec != std::errc{} || result.ptr != text.data() + text.size() || value > size_)
-    damaged(std::string(key) + " = \"" + std::string(text.substr(0, 30)) + "\" in a file of " +
-            std::to_string(size_) + " bytes");
+    damaged(std::string(key) + " = \"" + std::string(text.substr(0, 30)) + "\" in a file of " + std::to_string(size_) +
+            " bytes");
   return value;
 }
 

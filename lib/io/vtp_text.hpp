@@ -21,7 +21,7 @@ struct VtpArrayText {
   std::string section, name;  ///< section: FieldData PointData CellData Points Verts Polys ...
   ScalarType type;
   int components = 1;
-  std::string_view content;   ///< base64 of a byte count and of the data, in one stream or in two
+  std::string_view content;  ///< base64 of a byte count and of the data, in one stream or in two
 };
 
 struct VtpTag;

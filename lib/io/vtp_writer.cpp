@@ -18,20 +18,29 @@ static_assert(sizeof(Vec3d) == 24 && sizeof(Vec3f) == 12 && sizeof(Vec3<std::int
 std::size_t size_of(ScalarType type) {
   switch (type) {
     case ScalarType::float64:
-    case ScalarType::int64: return 8;
-    case ScalarType::uint8: return 1;
-    default: return 4;
+    case ScalarType::int64:
+      return 8;
+    case ScalarType::uint8:
+      return 1;
+    default:
+      return 4;
   }
 }
 
 const char* vtk_name(ScalarType type) {
   switch (type) {
-    case ScalarType::float32: return "Float32";
-    case ScalarType::float64: return "Float64";
-    case ScalarType::int32: return "Int32";
-    case ScalarType::uint32: return "UInt32";
-    case ScalarType::int64: return "Int64";
-    case ScalarType::uint8: return "UInt8";
+    case ScalarType::float32:
+      return "Float32";
+    case ScalarType::float64:
+      return "Float64";
+    case ScalarType::int32:
+      return "Int32";
+    case ScalarType::uint32:
+      return "UInt32";
+    case ScalarType::int64:
+      return "Int64";
+    case ScalarType::uint8:
+      return "UInt8";
   }
   return "";
 }
@@ -41,11 +50,16 @@ namespace {
 std::string xml_escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
-    if (c == '&') out += "&amp;";
-    else if (c == '<') out += "&lt;";
-    else if (c == '>') out += "&gt;";
-    else if (c == '"') out += "&quot;";
-    else out += c;
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += c;
   }
   return out;
 }
@@ -159,8 +173,9 @@ void write_vtp(const std::string& path, const VtpContent& content) {
     throw std::logic_error("write_vtp: more points or triangles than a 32-bit connectivity can name");
   SafeFile file(path);
   VtpStream out(file);
-  out.text("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
-           "header_type=\"UInt64\">\n<PolyData>\n");
+  out.text(
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
+      "header_type=\"UInt64\">\n<PolyData>\n");
   out.section("FieldData", content.field, 0, true);
   out.text("<Piece NumberOfPoints=\"" + std::to_string(points) + "\" NumberOfVerts=\"" +
            (content.triangles || points == 0 ? "0" : "1") + "\" NumberOfLines=\"0\" NumberOfStrips=\"0\" " +

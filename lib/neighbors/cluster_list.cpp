@@ -34,8 +34,8 @@ struct BuildList {
   std::uint32_t* count;
   std::uint32_t* total;
   std::uint32_t* entries;
-  const Index* chosen;  // null: all
-  ClusterListView shifts;   // what tile offsets mean
+  const Index* chosen;     // null: all
+  ClusterListView shifts;  // what tile offsets mean
 
   // visit(first, last, code) for the j clusters that may have a pair inside the cutoff.
   template <class Visit>
@@ -44,8 +44,8 @@ struct BuildList {
     if (!cluster_box(record_i + record_offset(c), low, high)) return;
     for_each_candidate(grid_j, grid_i.cluster_tile[c], low, high, cutoff,
                        [&](Index first, Index last, const Vec3<std::int32_t>& o) {
-      visit(first, last, static_cast<std::uint32_t>((o.z + 1) * 9 + (o.y + 1) * 3 + (o.x + 1)));
-    });
+                         visit(first, last, static_cast<std::uint32_t>((o.z + 1) * 9 + (o.y + 1) * 3 + (o.x + 1)));
+                       });
   }
   // accept(entry, hit) for each of them; hit: it has one.
   template <class Lanes, class Accept>
@@ -74,7 +74,9 @@ struct BuildList {
   }
 
   template <class Lanes>
-  GDESP_HD void operator()(Index k, const Lanes& lanes) const { build(chosen ? chosen[k] : k, lanes); }
+  GDESP_HD void operator()(Index k, const Lanes& lanes) const {
+    build(chosen ? chosen[k] : k, lanes);
+  }
 
   // Two walks: count, fill.
   template <class Lanes>
@@ -184,9 +186,10 @@ void ClusterList<Exec>::build(const CellGridView& i, const float* record_i, cons
       count_.fill_bytes(0);
       total_.fill_bytes(0);
     }
-    exec::pair_pass(exec_, "list::build", chosen.list ? chosen.count : i.clusters,
-                    BuildList{i, j, record_i, record_j, cutoff, static_cast<std::uint32_t>(entries_.size()),
-                              used_.data(), begin_.data(), count_.data(), total_.data(), entries_.data(), chosen.list, view()});
+    exec::pair_pass(
+        exec_, "list::build", chosen.list ? chosen.count : i.clusters,
+        BuildList{i, j, record_i, record_j, cutoff, static_cast<std::uint32_t>(entries_.size()), used_.data(),
+                  begin_.data(), count_.data(), total_.data(), entries_.data(), chosen.list, view()});
     used_entries_ = used_.read(0);
     if (used_entries_ <= entries_.size()) return;
     entries_.resize_discard(used_entries_ + used_entries_ / 16);

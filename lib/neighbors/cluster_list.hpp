@@ -121,7 +121,8 @@ struct ClusterTrim {
   GDESP_HD void operator()(Index c, const Lanes& lanes) const {
     const std::uint32_t crosses = total[c] & ClusterListView::crosses_bit;
     const std::uint32_t begin = list.begin[c], end = begin + (total[c] & ~ClusterListView::crosses_bit);
-    const std::uint32_t front = crosses ? near_first<true>(c, lanes, begin, end) : near_first<false>(c, lanes, begin, end);
+    const std::uint32_t front =
+        crosses ? near_first<true>(c, lanes, begin, end) : near_first<false>(c, lanes, begin, end);
     if (lanes.leader()) count[c] = (front - begin) | crosses;
     lanes.share_memory();
   }
@@ -131,7 +132,8 @@ template <class Exec>
 class ClusterList {
  public:
   ClusterList() = default;
-  explicit ClusterList(const Exec& exec) : exec_(exec), begin_(exec), count_(exec), total_(exec), entries_(exec), used_(exec) {}
+  explicit ClusterList(const Exec& exec)
+      : exec_(exec), begin_(exec), count_(exec), total_(exec), entries_(exec), used_(exec) {}
 
   /// Lists, for each cluster of `i` (records `record_i`), the clusters of `j` with a pair closer than `cutoff` (m).
   /// i and j may be the same set; a cluster is then in its own list.
@@ -142,7 +144,7 @@ class ClusterList {
   ClusterTrim trim(const float* record_i, const float* record_j, float cutoff);
 
   ClusterListView view() const;
-  std::size_t entries() const { return used_entries_; }   ///< in use or not
+  std::size_t entries() const { return used_entries_; }  ///< in use or not
 
   /// The members that a checkpoint keeps (exec/state_archive.hpp).
   template <class Archive>

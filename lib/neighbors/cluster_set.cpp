@@ -37,8 +37,9 @@ struct KeyMaker {
   std::int64_t tiles;
 
   GDESP_HD static std::int32_t cell(std::int64_t p, std::int32_t count) {
-    return static_cast<std::int32_t>((static_cast<std::uint64_t>(Domain::fraction_of(p)) *
-                                      static_cast<std::uint64_t>(count)) >> Domain::fraction_bits);
+    return static_cast<std::int32_t>(
+        (static_cast<std::uint64_t>(Domain::fraction_of(p)) * static_cast<std::uint64_t>(count)) >>
+        Domain::fraction_bits);
   }
   GDESP_HD std::uint64_t key(const FixedPosition& p) const {
     const std::uint64_t pencil = pencil_number(cell(p.y, cells.y), cell(p.z, cells.z));
@@ -218,8 +219,9 @@ ClusterSet<Exec>::ClusterSet(const Exec& exec, const Domain& domain, double cell
   }
   const std::int64_t tiles = static_cast<std::int64_t>(domain.tiles.x) * domain.tiles.y * domain.tiles.z;
   if (tiles > (std::int64_t{1} << 28)) {
-    throw Error(ErrorKind::input, "the domain is too large for its resolution: " + std::to_string(tiles) +
-                                      " blocks of 64 spacings, at most 268435456; give a smaller domain or a larger dp");
+    throw Error(ErrorKind::input,
+                "the domain is too large for its resolution: " + std::to_string(tiles) +
+                    " blocks of 64 spacings, at most 268435456; give a smaller domain or a larger dp");
   }
   pencil_bits_ = bits_for(pencil_number(cells_.y - 1, 0) | pencil_number(0, cells_.z - 1));
   tile_bits_ = bits_for(static_cast<std::uint64_t>(tiles));
@@ -246,7 +248,7 @@ void ClusterSet<Exec>::build_in(const Array<FixedPosition, Exec>& position, cons
   const std::uint64_t* keys = sorted.keys;
 
   const auto count = static_cast<std::size_t>(particles_);
-  Index* head = reinterpret_cast<Index*>(sorted.other_keys);   // idle now; it holds n + 1 words
+  Index* head = reinterpret_cast<Index*>(sorted.other_keys);  // idle now; it holds n + 1 words
   Index* ordinal = head + count + 1;
   exec::parallel_for(exec_, "sort::heads", particles_, MarkPencilHeads{keys, head});
   const Index pencils = exec::exclusive_scan(exec_, "sort::scan", head, ordinal, particles_);
@@ -254,14 +256,12 @@ void ClusterSet<Exec>::build_in(const Array<FixedPosition, Exec>& position, cons
   for (auto* array : {&pencil_first_, &padded_count_, &padded_begin_, &tile_head_, &tile_ordinal_}) {
     array->resize_discard(p + 1);
   }
-  exec::parallel_for(exec_, "sort::heads", particles_,
-                     WritePencilFirsts{head, ordinal, pencil_first_.data()});
+  exec::parallel_for(exec_, "sort::heads", particles_, WritePencilFirsts{head, ordinal, pencil_first_.data()});
   exec::parallel_for(exec_, "sort::heads", pencils,
-                     CountPadded{keys, pencil_first_.data(), pencils, particles_, tile_shift,
-                                 padded_count_.data(), tile_head_.data()});
+                     CountPadded{keys, pencil_first_.data(), pencils, particles_, tile_shift, padded_count_.data(),
+                                 tile_head_.data()});
   slots_ = exec::exclusive_scan(exec_, "sort::scan", padded_count_.data(), padded_begin_.data(), pencils);
-  const Index used_tiles =
-      exec::exclusive_scan(exec_, "sort::scan", tile_head_.data(), tile_ordinal_.data(), pencils);
+  const Index used_tiles = exec::exclusive_scan(exec_, "sort::scan", tile_head_.data(), tile_ordinal_.data(), pencils);
 
   tile_slot_.fill_bytes(0xff);
   cell_begin_.resize_discard(static_cast<std::size_t>(used_tiles) * static_cast<std::size_t>(cells_.z) *
@@ -270,12 +270,12 @@ void ClusterSet<Exec>::build_in(const Array<FixedPosition, Exec>& position, cons
   source_.resize_discard(static_cast<std::size_t>(slots_));
   cluster_tile_.resize_discard(static_cast<std::size_t>(clusters()));
   exec::parallel_for(exec_, "sort::tiles", pencils,
-                     WriteTileSlots{keys, pencil_first_.data(), tile_head_.data(), tile_ordinal_.data(),
-                                    tile_shift, tile_slot_.data()});
+                     WriteTileSlots{keys, pencil_first_.data(), tile_head_.data(), tile_ordinal_.data(), tile_shift,
+                                    tile_slot_.data()});
   exec::parallel_for(exec_, "sort::place", particles_,
-                     PlaceParticles{maker, keys, sorted.values, position.data(), head, ordinal,
-                                    pencil_first_.data(), padded_begin_.data(), tile_slot_.data(), particles_,
-                                    tile_shift, source_.data(), cell_begin_.data(), cluster_tile_.data()});
+                     PlaceParticles{maker, keys, sorted.values, position.data(), head, ordinal, pencil_first_.data(),
+                                    padded_begin_.data(), tile_slot_.data(), particles_, tile_shift, source_.data(),
+                                    cell_begin_.data(), cluster_tile_.data()});
   block_.resize_discard(8 * static_cast<std::size_t>(used_tiles));
   exec::parallel_for(exec_, "sort::blocks", 8 * used_tiles, MarkBlocks{view(), block_.data()});
 }

@@ -19,12 +19,12 @@ inline constexpr std::uint32_t no_particle = 0xffffffffu;
 /// What kernels see of the grid of a ClusterSet.
 struct CellGridView {
   Domain domain;
-  Vec3<std::int32_t> cells;          ///< per tile and axis
-  Vec3f inverse_cell_size;           ///< 1/m
-  const Index* tile_slot;            ///< per dense tile number: storage slot, -1 when the tile holds no particle
-  const Index* cell_begin;           ///< [storage slot][pencil = cz * cells.y + cy][cell x 0..cells.x]: first slot
-  const std::uint64_t* block;        ///< [storage slot][z block 0..7]: bit 8 y + x of blocks that hold a particle
-  Vec3<std::int32_t> block_shift;    ///< cell >> block_shift is its block, 0..7, along each axis
+  Vec3<std::int32_t> cells;        ///< per tile and axis
+  Vec3f inverse_cell_size;         ///< 1/m
+  const Index* tile_slot;          ///< per dense tile number: storage slot, -1 when the tile holds no particle
+  const Index* cell_begin;         ///< [storage slot][pencil = cz * cells.y + cy][cell x 0..cells.x]: first slot
+  const std::uint64_t* block;      ///< [storage slot][z block 0..7]: bit 8 y + x of blocks that hold a particle
+  Vec3<std::int32_t> block_shift;  ///< cell >> block_shift is its block, 0..7, along each axis
   const Vec3<std::int32_t>* cluster_tile;  ///< per cluster: tile coordinates
   Index clusters;
 
@@ -56,16 +56,18 @@ class ClusterSet {
   /// Gives back the memory that only build() uses, of a set that will not be built again.
   void free_workspace();
 
-  Index slots() const { return slots_; }              ///< 4 x clusters
+  Index slots() const { return slots_; }  ///< 4 x clusters
   Index clusters() const { return slots_ / exec::cluster_size; }
-  Index particles() const { return particles_; }      ///< real ones
-  Index lost() const { return lost_; }                ///< left out by the last build because outside the domain
+  Index particles() const { return particles_; }  ///< real ones
+  Index lost() const { return lost_; }            ///< left out by the last build because outside the domain
   const Index* source() const { return source_.data(); }
   CellGridView view() const;
 
   /// The members that a checkpoint keeps (exec/state_archive.hpp).
   template <class Archive>
-  void archive(Archive& a) { a(slots_, particles_, lost_, source_, tile_slot_, cell_begin_, block_, cluster_tile_); }
+  void archive(Archive& a) {
+    a(slots_, particles_, lost_, source_, tile_slot_, cell_begin_, block_, cluster_tile_);
+  }
 
  private:
   // Two sets of keys (and one more: see MarkPencilHeads) and of old slots.

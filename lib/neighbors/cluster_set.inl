@@ -62,15 +62,15 @@ GDESP_HD inline void for_each_candidate(const CellGridView& grid, const Vec3<std
   const float reach = cutoff + 1.0e-3f * (cell.y > cell.x ? cell.y : cell.x);
   for (int oz = -1; oz <= 1; ++oz) {
     const float shift_z = static_cast<float>(oz) * size.z;
-    const auto rz = detail::cell_range(low.z - reach - shift_z, high.z + reach - shift_z, grid.inverse_cell_size.z,
-                                       grid.cells.z);
+    const auto rz =
+        detail::cell_range(low.z - reach - shift_z, high.z + reach - shift_z, grid.inverse_cell_size.z, grid.cells.z);
     if (rz.first > rz.last) continue;
     const std::int32_t tz = detail::neighbour_tile(tile.z, oz, domain.tiles.z, domain.periodic[2]);
     if (tz < 0) continue;
     for (int oy = -1; oy <= 1; ++oy) {
       const float shift_y = static_cast<float>(oy) * size.y;
-      const auto ry = detail::cell_range(low.y - reach - shift_y, high.y + reach - shift_y, grid.inverse_cell_size.y,
-                                         grid.cells.y);
+      const auto ry =
+          detail::cell_range(low.y - reach - shift_y, high.y + reach - shift_y, grid.inverse_cell_size.y, grid.cells.y);
       if (ry.first > ry.last) continue;
       const std::int32_t ty = detail::neighbour_tile(tile.y, oy, domain.tiles.y, domain.periodic[1]);
       if (ty < 0) continue;

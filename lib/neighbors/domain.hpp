@@ -19,11 +19,11 @@ struct Domain {
   static constexpr int fraction_bits = 32;
   static constexpr double one_tile = 4294967296.0;  // 2^fraction_bits
 
-  Vec3d lower;                    ///< m, case coordinates of the origin of tile (0, 0, 0)
-  Vec3d tile_size;                ///< m; along a periodic axis the period is a whole number of tiles
-  Vec3<std::int32_t> tiles;       ///< number along each axis
+  Vec3d lower;               ///< m, case coordinates of the origin of tile (0, 0, 0)
+  Vec3d tile_size;           ///< m; along a periodic axis the period is a whole number of tiles
+  Vec3<std::int32_t> tiles;  ///< number along each axis
   bool periodic[3] = {false, false, false};
-  int dimensions = 3;             ///< 2: the plane x-z, y = 0
+  int dimensions = 3;  ///< 2: the plane x-z, y = 0
 
   GDESP_HD static std::int32_t tile_of(std::int64_t p) { return static_cast<std::int32_t>(p >> fraction_bits); }
   GDESP_HD static std::uint32_t fraction_of(std::int64_t p) { return static_cast<std::uint32_t>(p); }

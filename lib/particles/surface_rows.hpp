@@ -19,9 +19,10 @@ namespace gdesp {
 /// Rows of an endless lattice below its surface; dp = rho = g = 1.
 class SurfaceRows {
  public:
-  static constexpr int count = 8;   ///< of shifted rows; the eighth moves by 0.0001
+  static constexpr int count = 8;  ///< of shifted rows; the eighth moves by 0.0001
 
-  SurfaceRows(double smoothing_ratio, int dimensions) : support_(2.0 * smoothing_ratio), reach_(static_cast<int>(std::ceil(support_)) + 1) {
+  SurfaceRows(double smoothing_ratio, int dimensions)
+      : support_(2.0 * smoothing_ratio), reach_(static_cast<int>(std::ceil(support_)) + 1) {
     for (int i = -reach_; i <= reach_; ++i) {
       for (int j = dimensions == 2 ? 0 : -reach_; j <= (dimensions == 2 ? 0 : reach_); ++j) ++shell_[i * i + j * j];
     }
@@ -40,7 +41,9 @@ class SurfaceRows {
   }
 
  private:
-  double height(const std::vector<double>& shift, int k) const { return (k < count ? shift[static_cast<std::size_t>(k)] : 0.0) - k - 0.5; }
+  double height(const std::vector<double>& shift, int k) const {
+    return (k < count ? shift[static_cast<std::size_t>(k)] : 0.0) - k - 0.5;
+  }
 
   /// Sum of -(dW/dr)/r over a row dz above or below, up to a factor.
   double slope(double dz) const {
@@ -54,13 +57,13 @@ class SurfaceRows {
 
   double support_;
   int reach_;
-  std::map<int, int> shell_;   // squared distances along a row, and how many points lie there
+  std::map<int, int> shell_;  // squared distances along a row, and how many points lie there
   double moment_ = 0.0;
 };
 
 /// s_k of the first rows, upwards; those below are not shifted. smoothing_ratio: h/dp, 1.3 to 2. Empty when none are found.
 inline std::vector<double> surface_row_shifts(double smoothing_ratio, int dimensions) {
-  constexpr double pace = 0.04, balanced = 1e-7;   // pace: of the way to rest, small enough for the stiffest rows
+  constexpr double pace = 0.04, balanced = 1e-7;  // pace: of the way to rest, small enough for the stiffest rows
   constexpr int most_steps = 5000;
   const SurfaceRows rows(smoothing_ratio, dimensions);
   std::vector<double> shift(SurfaceRows::count, 0.0), next(shift);

@@ -21,7 +21,10 @@ namespace {
 using Node = Formula::Node;
 using Branch = std::unique_ptr<Node>;
 
-struct NamedFunction { const char* name; double (*function)(double); };
+struct NamedFunction {
+  const char* name;
+  double (*function)(double);
+};
 const NamedFunction functions[] = {
     {"sqrt", [](double v) { return std::sqrt(v); }}, {"exp", [](double v) { return std::exp(v); }},
     {"log", [](double v) { return std::log(v); }},   {"sin", [](double v) { return std::sin(v); }},
@@ -36,7 +39,10 @@ class Parser {
   explicit Parser(const std::string& text) : text_(text) {}
 
   Branch whole() {
-    if (text_.size() > longest) throw Error(ErrorKind::input, "a formula has at most " + std::to_string(longest) + " characters; from character " + std::to_string(longest + 1) + " on it is too long");
+    if (text_.size() > longest)
+      throw Error(ErrorKind::input, "a formula has at most " + std::to_string(longest) +
+                                        " characters; from character " + std::to_string(longest + 1) +
+                                        " on it is too long");
     Branch root = sum();
     if (peek() != '\0') fail();
     return root;
@@ -44,9 +50,10 @@ class Parser {
 
  private:
   [[noreturn]] void fail() const {
-    throw Error(ErrorKind::input, "the formula \"" + text_ + "\" cannot be read from character " + std::to_string(at_ + 1) +
-                                      " on; valid: numbers, x, y, z, pi, + - * / ^ ( ) and sqrt exp log sin cos tan sinh cosh "
-                                      "tanh abs");
+    throw Error(ErrorKind::input,
+                "the formula \"" + text_ + "\" cannot be read from character " + std::to_string(at_ + 1) +
+                    " on; valid: numbers, x, y, z, pi, + - * / ^ ( ) and sqrt exp log sin cos tan sinh cosh "
+                    "tanh abs");
   }
   char peek() {
     while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
@@ -135,17 +142,28 @@ class Parser {
 
 double value_of(const Node& n, const Vec3d& r) {
   switch (n.kind) {
-    case 'n': return n.value;
-    case 'x': return r.x;
-    case 'y': return r.y;
-    case 'z': return r.z;
-    case 'm': return -value_of(*n.left, r);
-    case 'f': return n.function(value_of(*n.left, r));
-    case '+': return value_of(*n.left, r) + value_of(*n.right, r);
-    case '-': return value_of(*n.left, r) - value_of(*n.right, r);
-    case '*': return value_of(*n.left, r) * value_of(*n.right, r);
-    case '/': return value_of(*n.left, r) / value_of(*n.right, r);
-    default: return std::pow(value_of(*n.left, r), value_of(*n.right, r));
+    case 'n':
+      return n.value;
+    case 'x':
+      return r.x;
+    case 'y':
+      return r.y;
+    case 'z':
+      return r.z;
+    case 'm':
+      return -value_of(*n.left, r);
+    case 'f':
+      return n.function(value_of(*n.left, r));
+    case '+':
+      return value_of(*n.left, r) + value_of(*n.right, r);
+    case '-':
+      return value_of(*n.left, r) - value_of(*n.right, r);
+    case '*':
+      return value_of(*n.left, r) * value_of(*n.right, r);
+    case '/':
+      return value_of(*n.left, r) / value_of(*n.right, r);
+    default:
+      return std::pow(value_of(*n.left, r), value_of(*n.right, r));
   }
 }
 

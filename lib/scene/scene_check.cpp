@@ -19,8 +19,9 @@ void check_box(const KeySources& sources, const std::string& key, const std::opt
   for (const int axis : {0, 1, 2}) {
     if (axis == 1 && dimensions == 2) continue;
     if (box->lower[axis] < box->upper[axis]) continue;
-    fail(sources, key, std::string("lower.") + "xyz"[axis] + " = " + std::to_string(box->lower[axis]) +
-                           " m is not below upper." + "xyz"[axis] + " = " + std::to_string(box->upper[axis]) + " m");
+    fail(sources, key,
+         std::string("lower.") + "xyz"[axis] + " = " + std::to_string(box->lower[axis]) + " m is not below upper." +
+             "xyz"[axis] + " = " + std::to_string(box->upper[axis]) + " m");
   }
 }
 
@@ -36,8 +37,9 @@ void check_shape(const KeySources& sources, const std::string& key, const Shape&
       "give exactly one of: box; mesh; surface_below and surface_above; polygon with thickness or uniform_thickness";
   if (ways != 1) fail(sources, key, (ways == 0 ? "no shape: " : "more than one shape: ") + valid);
   if (layered && (s.surface_below.empty() || s.surface_above.empty()))
-    fail(sources, key, "surface_below and surface_above come together; " +
-                           std::string(s.surface_below.empty() ? "surface_below" : "surface_above") + " is missing");
+    fail(sources, key,
+         "surface_below and surface_above come together; " +
+             std::string(s.surface_below.empty() ? "surface_below" : "surface_above") + " is missing");
   const bool thick = !s.thickness.empty(), uniform = s.uniform_thickness > 0.0;
   if (!s.polygon.empty() && thick == uniform)
     fail(sources, key, "a polygon needs either thickness (a raster, m) or uniform_thickness > 0 (m)");
@@ -69,7 +71,8 @@ void check_wall(const KeySources& sources, const std::string& key, const Wall& w
   if (!wall.tank && !wall.symmetry.empty()) fail(sources, key + ".symmetry", "only with tank");
   for (const std::string& face : wall.symmetry) {
     if (std::find(wall.open.begin(), wall.open.end(), face) != wall.open.end())
-      fail(sources, key + ".symmetry", "\"" + face + "\" is left out (open): a plane of symmetry is a face of the tank");
+      fail(sources, key + ".symmetry",
+           "\"" + face + "\" is left out (open): a plane of symmetry is a face of the tank");
   }
   check_box(sources, key + ".tank", wall.tank, dimensions);
 }
@@ -85,7 +88,8 @@ void check_slide(const KeySources& sources, const std::string& key, const Slide&
     if (s.diameter_half_width > 0.0 && s.diameter_half_width >= s.diameter)
       fail(sources, key + ".diameter_half_width", "must be below diameter, or diameters would reach zero");
     if (s.diameter_half_width > 0.0 && s.diameter_deviation > 0.0)
-      fail(sources, key + ".diameter_half_width", "a uniform distribution, and diameter_deviation a normal one: give one of them");
+      fail(sources, key + ".diameter_half_width",
+           "a uniform distribution, and diameter_deviation a normal one: give one of them");
     if (s.porosity < 0.2 || s.porosity > 0.95)
       fail(sources, key + ".porosity", std::to_string(s.porosity) + " cannot be packed; valid: 0.2 to 0.95");
   }
@@ -99,9 +103,13 @@ void check_far_lake(const KeySources& sources, const std::string& key, const Mov
   const FarLakeKeys& lake = body.far_lake;
   if (!sources.given(key + ".far_lake") || body.kind != "piston") return;
   if (!(lake.length > 0.0) && !(lake.depth > 0.0) && lake.columns == 0) return;  // none, as a case says it
-  if (!(lake.length > 0.0) || !(lake.depth > 0.0)) fail(sources, key + ".far_lake", "needs length > 0 and depth > 0 (m)");
-  if (lake.columns > 0 && lake.columns < 2) fail(sources, key + ".far_lake.columns", "1 column; a far lake needs at least 2");
-  if (!body.shape.box) fail(sources, key, "with far_lake the piston is a box, whose face towards the particles' water is the wall between them");
+  if (!(lake.length > 0.0) || !(lake.depth > 0.0))
+    fail(sources, key + ".far_lake", "needs length > 0 and depth > 0 (m)");
+  if (lake.columns > 0 && lake.columns < 2)
+    fail(sources, key + ".far_lake.columns", "1 column; a far lake needs at least 2");
+  if (!body.shape.box)
+    fail(sources, key,
+         "with far_lake the piston is a box, whose face towards the particles' water is the wall between them");
   if (body.wave.kind != "none" || !body.motion_csv.empty() || norm(body.velocity) > 0.0 || body.remove_at >= 0.0)
     fail(sources, key, "with far_lake the water moves the piston: no wave, velocity, motion_csv or remove_at");
   if (scene.gravity.x != 0.0 || scene.gravity.y != 0.0 || !(scene.gravity.z < 0.0))
@@ -115,12 +123,15 @@ void check_moving(const KeySources& sources, const std::string& key, const Movin
   if (!body.motion_csv.empty() && sources.given(key + ".velocity") && norm(body.velocity) > 0.0)
     fail(sources, key, "give either velocity or motion_csv");
   if (body.wave.kind != "none") {
-    if (!(body.wave.height > 0.0) || !(body.wave.depth > 0.0)) fail(sources, key + ".wave", "needs height > 0 and depth > 0 (m)");
+    if (!(body.wave.height > 0.0) || !(body.wave.depth > 0.0))
+      fail(sources, key + ".wave", "needs height > 0 and depth > 0 (m)");
     if (!(norm(body.wave.direction) > 0.0)) fail(sources, key + ".wave.direction", "is no direction");
-    if (!body.motion_csv.empty() || norm(body.velocity) > 0.0) fail(sources, key, "give one of wave, velocity and motion_csv");
+    if (!body.motion_csv.empty() || norm(body.velocity) > 0.0)
+      fail(sources, key, "give one of wave, velocity and motion_csv");
   }
   if (body.stop < body.start)
-    fail(sources, key + ".stop", std::to_string(body.stop) + " s is before start = " + std::to_string(body.start) + " s");
+    fail(sources, key + ".stop",
+         std::to_string(body.stop) + " s is before start = " + std::to_string(body.start) + " s");
 }
 
 /// Gives unnamed items a name; refuses names used twice or that would not do as part of a file name.
@@ -142,7 +153,8 @@ void check_names(const KeySources& sources, const std::string& table, Items& ite
 void check_moving_bodies(Scene& scene, const KeySources& sources) {
   for (const char* kind : {"gate", "piston", "body"}) {
     std::vector<MovingBody> bodies;
-    for (const MovingBody& body : scene.moving) if (body.kind == kind) bodies.push_back(body);
+    for (const MovingBody& body : scene.moving)
+      if (body.kind == kind) bodies.push_back(body);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       const std::string key = std::string(kind) + "." + std::to_string(i);
       check_moving(sources, key, bodies[i], scene.dimensions);
@@ -150,7 +162,8 @@ void check_moving_bodies(Scene& scene, const KeySources& sources) {
     }
     check_names(sources, kind, bodies);
     std::size_t next = 0;
-    for (MovingBody& body : scene.moving) if (body.kind == kind) body.name = bodies[next++].name;
+    for (MovingBody& body : scene.moving)
+      if (body.kind == kind) body.name = bodies[next++].name;
   }
 }
 
@@ -162,22 +175,22 @@ void name_slides(Scene& scene, const KeySources& sources) {
 }
 
 void check_start_velocity(const Fluid& fluid, const KeySources& sources) {
-  const std::pair<const char*, const std::string*> formulas[] = {
-      {"fluid.velocity_x", &fluid.velocity_x}, {"fluid.velocity_y", &fluid.velocity_y}, {"fluid.velocity_z", &fluid.velocity_z}};
+  const std::pair<const char*, const std::string*> formulas[] = {{"fluid.velocity_x", &fluid.velocity_x},
+                                                                 {"fluid.velocity_y", &fluid.velocity_y},
+                                                                 {"fluid.velocity_z", &fluid.velocity_z}};
   for (const auto& [key, text] : formulas) {
     if (text->empty()) continue;
     try {
       Formula formula(*text);
-    } catch (const Error& error) {
-      fail(sources, key, error.what());
-    }
+    } catch (const Error& error) { fail(sources, key, error.what()); }
   }
 }
 
 void check_domain(const Scene& scene, const KeySources& sources) {
   const bool lower = sources.given("domain.lower"), upper = sources.given("domain.upper");
   if (lower != upper)
-    fail(sources, "domain", std::string("lower and upper come together; ") + (lower ? "upper" : "lower") + " is missing");
+    fail(sources, "domain",
+         std::string("lower and upper come together; ") + (lower ? "upper" : "lower") + " is missing");
   check_box(sources, "domain", scene.domain, scene.dimensions);
   if (scene.dimensions == 2)
     for (const std::string& axis : scene.periodic)
@@ -195,8 +208,7 @@ void check_scene(Scene& scene, const KeySources& sources) {
   if (scene.terrain.bathymetry_scale == 0.0) fail(sources, "terrain.bathymetry_scale", "must not be 0");
   for (std::size_t i = 0; i < scene.fluid.fill.size(); ++i)
     check_fill(sources, item("fluid.fill", i), scene.fluid.fill[i], dimensions);
-  for (std::size_t i = 0; i < scene.walls.size(); ++i)
-    check_wall(sources, item("wall", i), scene.walls[i], dimensions);
+  for (std::size_t i = 0; i < scene.walls.size(); ++i) check_wall(sources, item("wall", i), scene.walls[i], dimensions);
   for (std::size_t i = 0; i < scene.slides.size(); ++i)
     check_slide(sources, item("slide", i), scene.slides[i], dimensions);
   for (std::size_t i = 0; i < scene.floating.size(); ++i)
@@ -211,8 +223,8 @@ void check_scene(Scene& scene, const KeySources& sources) {
   check_names(sources, "section", scene.sections);
   check_names(sources, "region", scene.regions);
   if (scene.time.output_interval > scene.time.end)
-    fail(sources, "time.output_interval", std::to_string(scene.time.output_interval) +
-                                              " s is past time.end = " + std::to_string(scene.time.end) + " s");
+    fail(sources, "time.output_interval",
+         std::to_string(scene.time.output_interval) + " s is past time.end = " + std::to_string(scene.time.end) + " s");
 }
 
 }  // namespace gdesp::scene_detail

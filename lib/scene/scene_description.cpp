@@ -32,7 +32,9 @@ void describe_fluid(V& v, Fluid& fluid) {
   v.number({"density", "kg/m3", "reference density of the fluid"}, fluid.density, positive);
   v.number({"kinematic_viscosity", "m2/s", "kinematic viscosity of the fluid"}, fluid.kinematic_viscosity,
            not_negative);
-  v.text({"velocity_x", "m/s", "velocity at the start, a formula of x, y, z (m) such as \"0.1*sin(2*pi*x)\"; default: 0"}, fluid.velocity_x);
+  v.text(
+      {"velocity_x", "m/s", "velocity at the start, a formula of x, y, z (m) such as \"0.1*sin(2*pi*x)\"; default: 0"},
+      fluid.velocity_x);
   v.text({"velocity_y", "m/s", "the same along y"}, fluid.velocity_y);
   v.text({"velocity_z", "m/s", "the same along z"}, fluid.velocity_z);
   v.tables("fill", fluid.fill, [](V& w, FluidFill& fill) {
@@ -69,7 +71,8 @@ void describe_wall(V& v, Wall& wall) {
   v.text({"name", "", "name in messages and results; default: wall1, wall2, ..."}, wall.name);
   v.box({"tank", "m", "inner faces of a tank"}, wall.tank);
   v.choices({"open", "", "tank faces left out"}, wall.open, tank_face_names);
-  v.choices({"symmetry", "", "tank faces that are planes of symmetry: smooth for grains, free slip for the fluid"}, wall.symmetry, tank_face_names);
+  v.choices({"symmetry", "", "tank faces that are planes of symmetry: smooth for grains, free slip for the fluid"},
+            wall.symmetry, tank_face_names);
   v.path({"mesh", "", "file of a closed solid, or of an open sheet (made solid downwards)"}, wall.mesh);
   v.number({"mesh_size", "m", "element size when the mesh is a GEO or STEP file; 0: chosen from dp"}, wall.mesh_size,
            not_negative);
@@ -87,13 +90,16 @@ void describe_slide(V& v, Slide& s) {
   v.number({"diameter", "m", "grain diameter (granular: required, or sieve)"}, s.diameter, not_negative);
   v.number({"diameter_deviation", "m", "standard deviation of a normal distribution of diameters"},
            s.diameter_deviation, not_negative);
-  v.number({"diameter_half_width", "m", "half width of a uniform distribution of diameters (by number), instead of a normal one"},
+  v.number({"diameter_half_width", "m",
+            "half width of a uniform distribution of diameters (by number), instead of a normal one"},
            s.diameter_half_width, not_negative);
   v.number({"real_diameter", "m", "grain diameter that the drag law sees in coarse-grained runs; 0: the grain's own"},
            s.real_diameter, not_negative);
   v.number({"porosity", "1", "share of voids in the packing"}, s.porosity, share);
   v.integer({"seed", "", "of the random packing"}, s.seed, 0, std::uint64_t{1} << 62);
-  v.choice({"relaxation", "", "how the packing comes to rest: overlaps moved apart where it is, or falling and settling within the shape by contact"},
+  v.choice({"relaxation", "",
+            "how the packing comes to rest: overlaps moved apart where it is, or falling and settling within the shape "
+            "by contact"},
            s.relaxation, {"in-place", "gravity"});
   v.number({"release_at", "s", "held in place before"}, s.release_at, not_negative);
   v.vector({"velocity", "m/s", "velocity at the start"}, s.velocity);
@@ -121,15 +127,18 @@ void describe_moving(V& v, Scene& scene, const char* kind) {
     w.choice({"condition", "", "what the fluid feels along the body"}, body.condition, wall_conditions);
     if (body.kind != "piston") return;
     w.enter("wave");
-    w.choice({"kind", "", "the wave that the piston makes, instead of velocity and motion_csv"}, body.wave.kind, {"none", "solitary"});
+    w.choice({"kind", "", "the wave that the piston makes, instead of velocity and motion_csv"}, body.wave.kind,
+             {"none", "solitary"});
     w.number({"height", "m", "height of the crest above still water"}, body.wave.height, not_negative);
     w.number({"depth", "m", "depth of still water at the piston"}, body.wave.depth, not_negative);
     w.vector({"direction", "1", "in which the piston moves at first and the wave runs"}, body.wave.direction);
     w.leave();
     w.enter("far_lake");
-    w.number({"length", "m", "of a far lake behind the piston, columns of water that move it; 0: none (docs/decisions/0081)"}, body.far_lake.length,
+    w.number({"length", "m",
+              "of a far lake behind the piston, columns of water that move it; 0: none (docs/decisions/0081)"},
+             body.far_lake.length, not_negative);
+    w.number({"depth", "m", "of the far lake, and of the water that the piston holds, at rest"}, body.far_lake.depth,
              not_negative);
-    w.number({"depth", "m", "of the far lake, and of the water that the piston holds, at rest"}, body.far_lake.depth, not_negative);
     w.integer({"columns", "", "of the far lake; 0: five a depth"}, body.far_lake.columns, 0, 1000000);
     w.choice({"side", "", "of the piston where the far lake lies"}, body.far_lake.side, {"x+", "x-"});
     w.leave();
@@ -150,7 +159,9 @@ void describe_floating(V& v, FloatingBody& body) {
 void describe_contact(V& v, Contact& c) {
   v.enter("contact");
   v.choice({"law", "", "Hertz-Mindlin, or linear spring and dashpot"}, c.law, {"hertz", "linear"});
-  v.number({"youngs_modulus", "Pa", "of the grains and the walls (law hertz); 0: what keeps overlaps of grains below 1 % of a diameter at rest and 5 % on impact"},
+  v.number({"youngs_modulus", "Pa",
+            "of the grains and the walls (law hertz); 0: what keeps overlaps of grains below 1 % of a diameter at rest "
+            "and 5 % on impact"},
            c.youngs_modulus, not_negative);
   v.number({"poisson_ratio", "1", "of the grains and the walls (law hertz)"}, c.poisson_ratio, Range{0.0, 0.5, false});
   v.number({"stiffness", "N/m", "normal stiffness (law linear)"}, c.stiffness, positive);
@@ -160,7 +171,8 @@ void describe_contact(V& v, Contact& c) {
   v.number({"wall_friction", "1", "Coulomb coefficient with walls and bodies; < 0: as friction"}, c.wall_friction,
            any_number);
   v.number({"rolling_friction", "1", "rolling resistance coefficient"}, c.rolling_friction, not_negative);
-  v.number({"cohesion", "J/m2", "work of adhesion between two grains (DMT), twice the surface energy"}, c.cohesion, not_negative);
+  v.number({"cohesion", "J/m2", "work of adhesion between two grains (DMT), twice the surface energy"}, c.cohesion,
+           not_negative);
   v.leave();
 }
 
@@ -168,7 +180,8 @@ void describe_coupling(V& v, Coupling& c) {
   v.enter("coupling");
   v.boolean({"enabled", "", "fluid and grains act on each other"}, c.enabled);
   v.choice({"drag", "", "drag law; preset paper: ergun-wen-yu"}, c.drag, {"ergun-wen-yu", "di-felice"});
-  v.number({"smoothing_length", "m", "of the averaging between grains and fluid; 0: max(3 h, 2 d_max), in the plane max(4 h, 2 d_max)"},
+  v.number({"smoothing_length", "m",
+            "of the averaging between grains and fluid; 0: max(3 h, 2 d_max), in the plane max(4 h, 2 d_max)"},
            c.smoothing_length, not_negative);
   v.number({"added_mass", "1", "added-mass coefficient; preset paper: 0"}, c.added_mass, not_negative);
   v.leave();
@@ -180,8 +193,8 @@ void describe_numerics(V& v, Scene& scene) {
   v.choice({"preset", "", "sets the options below; a key of its own overrides its preset's value"}, n.preset,
            preset_names());
   if (v.reads()) apply_preset(n.preset, scene);
-  v.number({"smoothing_ratio", "1", "smoothing length over particle spacing, h / dp; preset paper: 1.3"}, n.smoothing_ratio,
-           Range{0.5, 4.0, false});
+  v.number({"smoothing_ratio", "1", "smoothing length over particle spacing, h / dp; preset paper: 1.3"},
+           n.smoothing_ratio, Range{0.5, 4.0, false});
   v.number({"sound_speed", "m/s", "of the weakly compressible fluid; 0: 10 x the largest expected speed"},
            n.sound_speed, not_negative);
   v.number({"expected_speed", "m/s", "largest speed expected; 0: estimated from the scene"}, n.expected_speed,
@@ -190,14 +203,19 @@ void describe_numerics(V& v, Scene& scene) {
            {"split", "verlet"});
   v.choice({"walls", "", "wall values extrapolated from the fluid, or dynamic particles; preset paper: dynamic"},
            n.walls, {"extrapolated", "dynamic"});
-  v.choice({"wall_layers", "", "wall particles of terrain and meshes in even layers along the surface, where no water stands at the start (fitted-where-dry) or everywhere (fitted; in space as before), or on the cubic lattice; preset paper: lattice"},
-           n.wall_layers, {"fitted-where-dry", "fitted", "lattice"});
+  v.choice(
+      {"wall_layers", "",
+       "wall particles of terrain and meshes in even layers along the surface, where no water stands at the start "
+       "(fitted-where-dry) or everywhere (fitted; in space as before), or on the cubic lattice; preset paper: lattice"},
+      n.wall_layers, {"fitted-where-dry", "fitted", "lattice"});
   v.choice({"viscosity", "", "viscous term of the fluid; preset paper: morris"}, n.viscosity,
            {"artificial", "morris", "none"});
   v.number({"artificial_viscosity", "1", "alpha; preset paper: 0"}, n.artificial_viscosity, not_negative);
   v.number({"density_diffusion", "1", "delta, 0: none; preset paper: 0"}, n.density_diffusion, not_negative);
   v.number({"shifting", "1", "particle shifting coefficient, 0: none; about 20"}, n.shifting, not_negative);
-  v.choice({"tension", "", "water under tension opens (cavitation), holds without clumping (controlled), or holds (kept); preset paper: kept"},
+  v.choice({"tension", "",
+            "water under tension opens (cavitation), holds without clumping (controlled), or holds (kept); preset "
+            "paper: kept"},
            n.tension, {"cavitation", "controlled", "kept"});
   v.number({"cfl", "1", "Courant number; 0: the scheme's own"}, n.cfl, not_negative);
   v.number({"time_step", "s", "fixed time step; 0: adaptive"}, n.time_step, not_negative);
@@ -212,7 +230,9 @@ void describe_economy(V& v, Economy& e) {
   v.enter("economy");
   v.boolean({"sleep", "", "still water sleeps until it is disturbed; preset paper: false"}, e.sleep);
   v.number({"wake_speed", "sqrt(g dp)", "mean velocity in a block of 8 dp that wakes it"}, e.wake_speed, positive);
-  v.boolean({"viscosity", "", "viscosity morris is left out where its layer, sqrt(nu t), stays below 0.2 dp; preset paper: false"}, e.viscosity);
+  v.boolean({"viscosity", "",
+             "viscosity morris is left out where its layer, sqrt(nu t), stays below 0.2 dp; preset paper: false"},
+            e.viscosity);
   v.boolean({"near_walls", "", "wall particles away from water are not touched; preset paper: false"}, e.near_walls);
   v.leave();
 }
@@ -229,7 +249,9 @@ void describe_domain(V& v, Scene& scene) {
   v.choices({"periodic", "", "axes along which the domain repeats"}, scene.periodic, {"x", "y", "z"});
   v.choice({"wall_particles", "", "wall particles only where water can come to, or on all terrain and walls"},
            scene.wall_particles, {"reachable", "all"});
-  v.number({"run_up", "m", "height above the highest water that water may climb (wall_particles reachable); 0: v^2/2g at the expected speed"},
+  v.number({"run_up", "m",
+            "height above the highest water that water may climb (wall_particles reachable); 0: v^2/2g at the expected "
+            "speed"},
            scene.run_up, not_negative);
   v.leave();
   if (lower && upper) scene.domain = Box{*lower, *upper};

@@ -28,7 +28,8 @@ std::string shown(const toml::node& node) {
   std::ostringstream out;
   out << toml::toml_formatter{node};
   std::string text = out.str();
-  for (char& c : text) if (c == '\n') c = ' ';
+  for (char& c : text)
+    if (c == '\n') c = ' ';
   if (text.size() > 60) text.replace(57, std::string::npos, "...");
   return text;
 }
@@ -217,7 +218,8 @@ class Reader : public SceneVisitor {
 
   static std::string choice_of(const toml::node& node, const std::string& key, const std::vector<std::string>& valid) {
     std::string found = string_of(node, key, "one of: " + join(valid));
-    for (const std::string& one : valid) if (one == found) return found;
+    for (const std::string& one : valid)
+      if (one == found) return found;
     const std::string near = did_you_mean(found, valid);
     wrong_value(node, key, "one of: " + join(valid) + (near.empty() ? "" : "; did you mean \"" + near + "\"?"));
   }
@@ -229,15 +231,15 @@ class Reader : public SceneVisitor {
     const fs::path whole = fs::absolute(folder_ / found).lexically_normal();
     std::error_code ignored;
     if (check_files_ && !fs::exists(whole, ignored))
-      fail(where_is(node), key, "there is no file \"" + whole.string() + "\" (a relative path starts at the folder of " +
-                                    "the scene file)");
+      fail(where_is(node), key,
+           "there is no file \"" + whole.string() + "\" (a relative path starts at the folder of " + "the scene file)");
     return whole.string();
   }
 
   static std::vector<double> components(const toml::node& node, const std::string& key, const char* unit,
                                         std::size_t fewest, std::size_t most) {
-    const std::string expected = with_unit(
-        most == 2 ? "[x, y]" : (fewest == 2 ? "[x, y] or [x, y, z]" : "[x, y, z]"), unit);
+    const std::string expected =
+        with_unit(most == 2 ? "[x, y]" : (fewest == 2 ? "[x, y] or [x, y, z]" : "[x, y, z]"), unit);
     const toml::array* array = node.as_array();
     if (!array || array->size() < fewest || array->size() > most) wrong_value(node, key, expected);
     std::vector<double> out;

@@ -52,8 +52,10 @@ toml::table parse_file(const std::string& path) {
 std::vector<std::string> split(const std::string& key) {
   std::vector<std::string> parts(1);
   for (const char c : key) {
-    if (c == '.') parts.emplace_back();
-    else parts.back() += c;
+    if (c == '.')
+      parts.emplace_back();
+    else
+      parts.back() += c;
   }
   return parts;
 }
@@ -103,7 +105,8 @@ struct KnownKeys {
   std::vector<std::string> children(const std::string& prefix) const {
     std::set<std::string> names;
     for (const std::string& key : leaves)
-      if (key.starts_with(prefix)) names.insert(key.substr(prefix.size(), key.find('.', prefix.size()) - prefix.size()));
+      if (key.starts_with(prefix))
+        names.insert(key.substr(prefix.size(), key.find('.', prefix.size()) - prefix.size()));
     return {names.begin(), names.end()};
   }
 
@@ -143,8 +146,8 @@ toml::table* step_down(toml::table& table, const std::vector<std::string>& parts
   if (!node) node = &table.insert_or_assign(parts[i], toml::table{}).first->second;
   const std::size_t count = node->is_array() ? node->as_array()->size() : 1;
   if (index >= count)
-    throw Error(ErrorKind::input, origin + ": the scene has " + std::to_string(count) + " [[" + path +
-                                      "]], numbered from 0");
+    throw Error(ErrorKind::input,
+                origin + ": the scene has " + std::to_string(count) + " [[" + path + "]], numbered from 0");
   if (toml::array* array = node->as_array()) node = array->get(index);
   if (!node->is_table()) throw Error(ErrorKind::input, origin + ": " + path + " is a value, not a table");
   return node->as_table();
@@ -225,8 +228,7 @@ Scene read_scene(const std::string& path, const std::vector<Override>& overrides
   for (const Override& override : overrides) apply_override(root, override, known);
   refuse_unknown(root, "", known, options.foreign_tables);
   Scene scene;
-  const scene_detail::KeySources sources =
-      scene_detail::read_scene_table(root, path, options.check_files, scene);
+  const scene_detail::KeySources sources = scene_detail::read_scene_table(root, path, options.check_files, scene);
   scene_detail::check_scene(scene, sources);
   scene.path = fs::absolute(path).lexically_normal().string();
   return scene;

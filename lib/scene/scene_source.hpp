@@ -10,9 +10,9 @@
 namespace gdesp {
 
 struct SceneReadOptions {
-  bool check_files = true;                    ///< input files must exist (a case no longer needs them)
-  std::vector<std::string> foreign_tables;    ///< top-level tables that are not the scene's
-  bool replace_preset = false;                ///< an overriding preset also replaces the old preset's values
+  bool check_files = true;                  ///< input files must exist (a case no longer needs them)
+  std::vector<std::string> foreign_tables;  ///< top-level tables that are not the scene's
+  bool replace_preset = false;              ///< an overriding preset also replaces the old preset's values
 };
 
 /// As read_scene, with options.

@@ -100,9 +100,12 @@ class KeySources {
   }
 
  private:
-  struct Entry { std::string key, where; };
+  struct Entry {
+    std::string key, where;
+  };
   const std::string* find(const std::string& key) const {
-    for (const Entry& entry : entries_) if (entry.key == key) return &entry.where;
+    for (const Entry& entry : entries_)
+      if (entry.key == key) return &entry.where;
     return nullptr;
   }
   std::string file_;

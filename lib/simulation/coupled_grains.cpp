@@ -32,9 +32,7 @@ void CoupledSimulation<Exec>::start_grains(const SimulationInput& input) {
   coupling_ = std::make_unique<coupling::GrainFluidCoupling<Exec>>(exec_, domain_, law);
   coupling_skin_ = 0.12 * law.smoothing_length;
   refresh_coupling(0.0, true);
-  if (coupling_->in_contact() && input.fluid.mass_share.empty()) {
-    coupling_->start_porosity(*grains_, fluid_);
-  }
+  if (coupling_->in_contact() && input.fluid.mass_share.empty()) { coupling_->start_porosity(*grains_, fluid_); }
 }
 
 template <class Exec>

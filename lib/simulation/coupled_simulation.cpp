@@ -21,11 +21,13 @@ Domain domain_of(const SimulationInput& input) {
 template <class Exec>
 CoupledSimulation<Exec>::CoupledSimulation(const Exec& exec, const SimulationInput& input)
     : exec_(exec), input_(input), domain_(domain_of(input)),
-      fluid_(exec, domain_, input.fluid_parameters, input.fluid, guarding_walls(input)), body_states_(input.bodies.size()) {
+      fluid_(exec, domain_, input.fluid_parameters, input.fluid, guarding_walls(input)),
+      body_states_(input.bodies.size()) {
   input_.fluid = {};
   input_.boundary = {};
   input_.grains = {};
-  if (input_.time.cfl <= 0.0) input_.time.cfl = input_.time.scheme == TimeScheme::split ? split_default_cfl : verlet_default_cfl;
+  if (input_.time.cfl <= 0.0)
+    input_.time.cfl = input_.time.scheme == TimeScheme::split ? split_default_cfl : verlet_default_cfl;
   start_bodies(input);
   place_bodies(0.0);
   if (!input.grains.position.empty()) start_grains(input);
@@ -45,9 +47,11 @@ double CoupledSimulation<Exec>::choose_step(double end) {
   double dt = input_.time.fixed_step;
   limited_by_ = "fixed";
   if (dt <= 0.0) {
-    const double largest_speed = std::max(std::sqrt(static_cast<double>(extremes_.speed2)), rigid_ ? rigid_->largest_speed() : 0.0);
+    const double largest_speed =
+        std::max(std::sqrt(static_cast<double>(extremes_.speed2)), rigid_ ? rigid_->largest_speed() : 0.0);
     const double artificial = p.viscosity == sph::Viscosity::artificial
-                                  ? p.artificial_viscosity * p.h * p.sound_speed / (2.0 * (p.dimensions + 2)) : 0.0;
+                                  ? p.artificial_viscosity * p.h * p.sound_speed / (2.0 * (p.dimensions + 2))
+                                  : 0.0;
     const FluidStepLimit limit =
         fluid_step_limit(input_.time.cfl, p.h, p.sound_speed, largest_speed,
                          std::sqrt(static_cast<double>(extremes_.acceleration2)), p.kinematic_viscosity + artificial);
@@ -64,15 +68,21 @@ double CoupledSimulation<Exec>::choose_step(double end) {
   dt *= step_factor_;
   acoustic_step_ = fluid_.particles() > 0 ? step_factor_ * input_.time.cfl * p.h / p.sound_speed : 0.0;
   // End exactly at `end`, without a sliver of a step before it.
-  if (left <= dt * (1.0 + 1e-9)) { limited_by_ = "output"; return left; }
-  if (left < 2.0 * dt) { limited_by_ = "output"; return 0.5 * left; }
+  if (left <= dt * (1.0 + 1e-9)) {
+    limited_by_ = "output";
+    return left;
+  }
+  if (left < 2.0 * dt) {
+    limited_by_ = "output";
+    return 0.5 * left;
+  }
   return dt;
 }
 
 template <class Exec>
 void CoupledSimulation<Exec>::make_room_for(double dt) {
-  double speed = std::sqrt(static_cast<double>(extremes_.speed2)) +
-                 dt * (std::sqrt(static_cast<double>(extremes_.acceleration2)));
+  double speed =
+      std::sqrt(static_cast<double>(extremes_.speed2)) + dt * (std::sqrt(static_cast<double>(extremes_.acceleration2)));
   for (const auto& body : body_states_) speed = std::max(speed, static_cast<double>(norm(body.velocity)));
   if (rigid_) speed = std::max(speed, rigid_->largest_speed() + dt * norm(input_.fluid_parameters.gravity));
   // Shifting adds at most 0.4 of the path of the fastest (sph.shifting).
@@ -205,7 +215,8 @@ Diagnostics CoupledSimulation<Exec>::diagnostics() {
     d.deepest_in_wall = static_cast<double>(deepest.depth) / input_.fluid_parameters.dp;
     d.deepest_in_wall_id = deepest.id;
   }
-  if (fluid_.set().clusters() > 0) d.awake_share = static_cast<double>(fluid_.awake_clusters()) / fluid_.set().clusters();
+  if (fluid_.set().clusters() > 0)
+    d.awake_share = static_cast<double>(fluid_.awake_clusters()) / fluid_.set().clusters();
   if (rigid_) {
     const dem::RigidSums bodies = rigid_->sums();
     d.free_bodies = std::count_if(input_.bodies.begin(), input_.bodies.end(),
@@ -242,7 +253,9 @@ Diagnostics CoupledSimulation<Exec>::diagnostics() {
 }
 
 template <class Exec>
-GrainTable CoupledSimulation<Exec>::grains() { return grains_ ? grains_->table() : GrainTable{}; }
+GrainTable CoupledSimulation<Exec>::grains() {
+  return grains_ ? grains_->table() : GrainTable{};
+}
 
 template class CoupledSimulation<exec::CompiledBackend>;
 

@@ -63,25 +63,28 @@ class CoupledSimulation final : public Simulation {
   int substeps_for(double dt) const;
 
   Exec exec_;
-  SimulationInput input_;             ///< parameters; the particle tables are emptied after the start
+  SimulationInput input_;  ///< parameters; the particle tables are emptied after the start
   Domain domain_;
   sph::FluidSystem<Exec> fluid_;
   std::unique_ptr<dem::GrainSystem<Exec>> grains_;
   std::unique_ptr<coupling::GrainFluidCoupling<Exec>> coupling_;
   double coupling_moved_ = 0.0, coupling_skin_ = 0.0, grain_dt_ = 0.0, grain_speed_ = 0.0;
-  long coupled_rebuild_ = -1;         ///< of the grains, when the coupling's lists were made
-  bool water_reset_ = true;           ///< porosity 1 and no reaction are in place
+  long coupled_rebuild_ = -1;  ///< of the grains, when the coupling's lists were made
+  bool water_reset_ = true;    ///< porosity 1 and no reaction are in place
   std::vector<sph::WallBodyState> body_states_;
-  std::unique_ptr<dem::RigidBodies> rigid_;          ///< null: no free bodies
-  double rigid_time_ = 0.0;                          ///< s, of their state and of the far lakes'
-  struct LakeBehind { std::size_t body; FarLake lake; };
-  std::vector<LakeBehind> far_lakes_;                ///< each behind one of the bodies
-  std::vector<dem::BodyLoad> loads_, last_loads_;    ///< of the water: for the step under way; at the last pass
-  std::vector<std::int32_t> loaded_;                 ///< by body number: moves under the load of the water
+  std::unique_ptr<dem::RigidBodies> rigid_;  ///< null: no free bodies
+  double rigid_time_ = 0.0;                  ///< s, of their state and of the far lakes'
+  struct LakeBehind {
+    std::size_t body;
+    FarLake lake;
+  };
+  std::vector<LakeBehind> far_lakes_;              ///< each behind one of the bodies
+  std::vector<dem::BodyLoad> loads_, last_loads_;  ///< of the water: for the step under way; at the last pass
+  std::vector<std::int32_t> loaded_;               ///< by body number: moves under the load of the water
   sph::FluidExtremes extremes_;
   double time_ = 0.0, last_dt_ = 0.0;
-  double largest_move_ = 0.0;         ///< m, bound on what a particle moves in this step
-  float density_lag_ = 0.0f;          ///< s; half a step that densities are behind (split)
+  double largest_move_ = 0.0;  ///< m, bound on what a particle moves in this step
+  float density_lag_ = 0.0f;   ///< s; half a step that densities are behind (split)
   std::int64_t step_ = 0, rebuilds_ = 0;
   double step_factor_ = 1.0, acoustic_step_ = 0.0;
   const char* limited_by_ = "sound";

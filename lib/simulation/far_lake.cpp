@@ -13,13 +13,14 @@ namespace {
 
 // Of the midpoint rule; what is left after them is far below the error of the step, which the sound of the particles' water bounds.
 constexpr int iterations = 3;
-constexpr double most_lacking = 0.15;   // of the force of water at rest
+constexpr double most_lacking = 0.15;  // of the force of water at rest
 
 }  // namespace
 
 FarLake::FarLake(const FarLakeShape& shape, double density, double gravity, double settling)
-    : shape_(shape), gravity_(gravity), settling_(settling), x_(static_cast<std::size_t>(shape.columns) + 1), u_(x_.size(), 0.0),
-      inertia_(columns()), pivot_(columns()), pressure_(columns()), a_(x_.size()), middle_(x_.size()) {
+    : shape_(shape), gravity_(gravity), settling_(settling), x_(static_cast<std::size_t>(shape.columns) + 1),
+      u_(x_.size(), 0.0), inertia_(columns()), pivot_(columns()), pressure_(columns()), a_(x_.size()),
+      middle_(x_.size()) {
   const double spacing = shape.length / shape.columns;
   for (std::size_t i = 0; i < x_.size(); ++i) x_[i] = spacing * static_cast<double>(i);
   area_ = shape.depth * spacing;
@@ -42,16 +43,18 @@ void FarLake::settle(double dt, double force) {
   const double at_rest = -far_wall_force_, found = rest_impulse_ / rest_time_;
   lacking_ = at_rest - found;
   if (std::abs(lacking_) <= most_lacking * at_rest) return;
-  throw Error(ErrorKind::input, "far lake: the water at its wall presses with " + std::to_string(found) + " N at the start, water at rest " +
-                                    std::to_string(shape_.depth) + " m deep and " + std::to_string(shape_.width) + " m wide with " +
-                                    std::to_string(at_rest) + " N; far_lake.depth has to be the depth there, and the water at rest");
+  throw Error(ErrorKind::input, "far lake: the water at its wall presses with " + std::to_string(found) +
+                                    " N at the start, water at rest " + std::to_string(shape_.depth) + " m deep and " +
+                                    std::to_string(shape_.width) + " m wide with " + std::to_string(at_rest) +
+                                    " N; far_lake.depth has to be the depth there, and the water at rest");
 }
 
 void FarLake::drift(double dt) {
   for (std::size_t i = 0; i < x_.size(); ++i) x_[i] += dt * u_[i];
   for (std::size_t j = 0; j < columns(); ++j) {
     if (length(j) > 0.0) continue;
-    throw Error(ErrorKind::numerical, "far lake: column " + std::to_string(j) + " has been pressed to nothing: the wave in it is too steep for "
+    throw Error(ErrorKind::numerical, "far lake: column " + std::to_string(j) +
+                                          " has been pressed to nothing: the wave in it is too steep for "
                                           "columns; more of the lake has to be particles");
   }
 }
@@ -75,7 +78,8 @@ void FarLake::solve(const std::vector<double>& u, double force) {
     pressure_[j] = -(2.0 * inertia_[j] * du * du + 0.5 * column_mass_ * gravity_ * depth(j)) / length(j);
   }
   a_[0] = pressure_[0] + force;
-  for (std::size_t i = 1; i < n; ++i) a_[i] = pressure_[i] - pressure_[i - 1] + inertia_[i - 1] / pivot_[i - 1] * a_[i - 1];
+  for (std::size_t i = 1; i < n; ++i)
+    a_[i] = pressure_[i] - pressure_[i - 1] + inertia_[i - 1] / pivot_[i - 1] * a_[i - 1];
   a_[n] = 0.0;
   for (std::size_t i = n; i-- > 0;) a_[i] = (a_[i] + inertia_[i] * a_[i + 1]) / pivot_[i];
 }

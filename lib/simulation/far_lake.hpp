@@ -20,9 +20,9 @@ namespace gdesp {
 
 /// Sums over the columns. SI units; potential energy from the bed.
 struct FarLakeSums {
-  double mass = 0.0, momentum = 0.0;   ///< momentum: along x
+  double mass = 0.0, momentum = 0.0;  ///< momentum: along x
   double kinetic = 0.0, potential = 0.0;
-  double highest = 0.0;                ///< largest rise of a column above still water, over the depth at rest
+  double highest = 0.0;  ///< largest rise of a column above still water, over the depth at rest
 };
 
 class FarLake {
@@ -34,7 +34,7 @@ class FarLake {
 
   /// Displacement (m) of node 0 along x since the start; `ahead` (s): where it will be when nothing acts.
   double displacement(double ahead = 0.0) const { return shape_.side * (x_.front() + ahead * u_.front()); }
-  double velocity() const { return shape_.side * u_.front(); }   ///< m/s, of node 0 along x
+  double velocity() const { return shape_.side * u_.front(); }  ///< m/s, of node 0 along x
   /// One step of dt (s) under the force (N, along x) of the particles' water on node 0, constant over it: half a drift, a kick by the
   /// implicit midpoint rule, half a drift. Second order, the same backwards; mass and momentum are kept to round-off.
   /// Throws Error(numerical) when a node has caught up with the next, Error(input) when the force at rest is not that of the depth.
@@ -52,7 +52,9 @@ class FarLake {
   void set_state(std::vector<double> nodes, std::vector<double> velocities);
 
   template <class Archive>
-  void archive(Archive& a) { a(time_, rest_time_, rest_impulse_, lacking_, x_, u_, far_wall_force_); }
+  void archive(Archive& a) {
+    a(time_, rest_time_, rest_impulse_, lacking_, x_, u_, far_wall_force_);
+  }
 
  private:
   std::size_t columns() const { return x_.size() - 1; }
@@ -64,13 +66,15 @@ class FarLake {
   void solve(const std::vector<double>& u, double force);
 
   FarLakeShape shape_;
-  double gravity_ = 0.0, column_mass_ = 0.0;   ///< all columns have the same mass
-  double area_ = 0.0;                          ///< m2, of a column in the plane along the lake
-  double settling_ = 0.0;                      ///< s, held until then
-  double time_ = 0.0, rest_time_ = 0.0, rest_impulse_ = 0.0;   ///< s, s, N s; the last two of the second half of the settling
-  double lacking_ = 0.0;                       ///< N, added to the force on node 0
-  std::vector<double> x_, u_;                  ///< of the nodes
-  std::vector<double> inertia_, pivot_, pressure_, a_, middle_;   ///< K, elimination, Q, accelerations; of the step under way
+  double gravity_ = 0.0, column_mass_ = 0.0;  ///< all columns have the same mass
+  double area_ = 0.0;                         ///< m2, of a column in the plane along the lake
+  double settling_ = 0.0;                     ///< s, held until then
+  double time_ = 0.0, rest_time_ = 0.0,
+         rest_impulse_ = 0.0;  ///< s, s, N s; the last two of the second half of the settling
+  double lacking_ = 0.0;       ///< N, added to the force on node 0
+  std::vector<double> x_, u_;  ///< of the nodes
+  std::vector<double> inertia_, pivot_, pressure_, a_,
+      middle_;  ///< K, elimination, Q, accelerations; of the step under way
   double far_wall_force_ = 0.0;
 };
 

@@ -8,14 +8,22 @@
 namespace gdesp {
 
 /// Displacement (m) and velocity (m/s) of a prescribed motion at time t (s): linear between its rows, constant beyond.
-struct MotionNow { Vec3d displacement, velocity; };
+struct MotionNow {
+  Vec3d displacement, velocity;
+};
 
 inline MotionNow motion_at(const PrescribedMotion& motion, double t) {
   MotionNow now;
   const auto& time = motion.time;
   if (time.empty()) return now;
-  if (t < time.front()) { now.displacement = motion.displacement.front(); return now; }
-  if (t >= time.back()) { now.displacement = motion.displacement.back(); return now; }
+  if (t < time.front()) {
+    now.displacement = motion.displacement.front();
+    return now;
+  }
+  if (t >= time.back()) {
+    now.displacement = motion.displacement.back();
+    return now;
+  }
   const auto next = static_cast<std::size_t>(std::upper_bound(time.begin(), time.end(), t) - time.begin());
   const double width = time[next] - time[next - 1];
   const Vec3d change = motion.displacement[next] - motion.displacement[next - 1];
@@ -25,6 +33,8 @@ inline MotionNow motion_at(const PrescribedMotion& motion, double t) {
 }
 
 /// True when the body is no longer there at time t.
-inline bool removed_at(const PrescribedMotion& motion, double t) { return motion.remove_at >= 0.0 && t >= motion.remove_at; }
+inline bool removed_at(const PrescribedMotion& motion, double t) {
+  return motion.remove_at >= 0.0 && t >= motion.remove_at;
+}
 
 }  // namespace gdesp

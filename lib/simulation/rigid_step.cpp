@@ -37,8 +37,9 @@ void CoupledSimulation<Exec>::start_bodies(const SimulationInput& input) {
   for (std::size_t b = 0; b < input.bodies.size(); ++b) {
     const Body& body = input.bodies[b];
     loaded_[b + 1] = body.kind != BodyKind::prescribed ? 1 : 0;
-    if (body.kind == BodyKind::far_lake) far_lakes_.push_back({b, FarLake(body.far_lake, p.reference_density, -p.gravity.z,
-                                                                                        settling_depths * body.far_lake.depth / p.sound_speed)});
+    if (body.kind == BodyKind::far_lake)
+      far_lakes_.push_back({b, FarLake(body.far_lake, p.reference_density, -p.gravity.z,
+                                       settling_depths * body.far_lake.depth / p.sound_speed)});
   }
   if (!any([](const Body& body) { return body.kind == BodyKind::free; })) return;
   rigid_ = std::make_unique<dem::RigidBodies>(input.bodies, input.walls, input.contact, p.gravity, p.dp, p.dimensions);
@@ -48,7 +49,8 @@ void CoupledSimulation<Exec>::start_bodies(const SimulationInput& input) {
 
 template <class Exec>
 const FarLake& CoupledSimulation<Exec>::far_lake_of(std::size_t b) const {
-  return std::find_if(far_lakes_.begin(), far_lakes_.end(), [b](const LakeBehind& behind) { return behind.body == b; })->lake;
+  return std::find_if(far_lakes_.begin(), far_lakes_.end(), [b](const LakeBehind& behind) { return behind.body == b; })
+      ->lake;
 }
 
 /// Of body b at time t (s), as far as it is known: free bodies and far lakes from their own time on, with nothing acting.
@@ -92,7 +94,8 @@ void CoupledSimulation<Exec>::measure_loads(bool mean_with_last) {
   for (std::size_t b = 0; b < now.size(); ++b) {
     const dem::BodyLoad load{now[b].force, now[b].torque};
     loads_[b] = load;
-    if (mean_with_last && step_ > 0) loads_[b] = {0.5 * (load.force + last_loads_[b].force), 0.5 * (load.torque + last_loads_[b].torque)};
+    if (mean_with_last && step_ > 0)
+      loads_[b] = {0.5 * (load.force + last_loads_[b].force), 0.5 * (load.torque + last_loads_[b].torque)};
     last_loads_[b] = load;
   }
 }
@@ -144,7 +147,8 @@ void CoupledSimulation<Exec>::advance_solids(double dt) {
     const std::vector<dem::BodyImpulse> impulses = grains_between_bodies(now, h, 1);
     for (std::size_t b = 0; b < input_.bodies.size(); ++b) {
       const Body& body = input_.bodies[b];
-      if (body.kind != BodyKind::free) rigid_->place_prescribed(b, body_moment(b, now + 0.5 * h), !removed_at(body.motion, now + h));
+      if (body.kind != BodyKind::free)
+        rigid_->place_prescribed(b, body_moment(b, now + 0.5 * h), !removed_at(body.motion, now + h));
     }
     rigid_->substep(h, 1.0 / n, impulses);
   }

@@ -17,7 +17,7 @@ struct Diagnostics {
   double time = 0.0;
   std::int64_t step = 0;
   double time_step = 0.0;
-  std::string limited_by;             ///< what bound the time step: sound, force, viscosity, fixed, output
+  std::string limited_by;  ///< what bound the time step: sound, force, viscosity, fixed, output
   double fluid_mass = 0.0, fluid_kinetic = 0.0, fluid_potential = 0.0, fluid_elastic = 0.0;
   Vec3d fluid_momentum;
   double grain_mass = 0.0, grain_kinetic = 0.0, grain_potential = 0.0, grain_elastic = 0.0;
@@ -25,22 +25,22 @@ struct Diagnostics {
   double body_kinetic = 0.0, body_potential = 0.0, body_elastic = 0.0;  ///< of free bodies and their contacts
   Vec3d body_momentum;
   double far_lake_mass = 0.0, far_lake_kinetic = 0.0, far_lake_potential = 0.0;  ///< potential: from its bed
-  double far_lake_momentum = 0.0;     ///< along x
-  double far_lake_highest = 0.0;      ///< largest rise of a column over its depth at rest
+  double far_lake_momentum = 0.0;                                                ///< along x
+  double far_lake_highest = 0.0;  ///< largest rise of a column over its depth at rest
   std::int64_t far_lakes = 0;
-  double largest_body_speed = 0.0;    ///< m/s, of any point of a free body
+  double largest_body_speed = 0.0;  ///< m/s, of any point of a free body
   std::int64_t free_bodies = 0;
-  double largest_speed = 0.0;         ///< m/s, water
-  double largest_grain_speed = 0.0;   ///< m/s
-  double mach = 0.0;                  ///< largest speed of water / sound speed
-  double largest_density_error = 0.0; ///< |rho/rho0 - 1|
-  double largest_overlap = 0.0;       ///< overlap / diameter
-  double deepest_in_wall = 0.0;       ///< water behind the true surface of a wall, over dp
+  double largest_speed = 0.0;                      ///< m/s, water
+  double largest_grain_speed = 0.0;                ///< m/s
+  double mach = 0.0;                               ///< largest speed of water / sound speed
+  double largest_density_error = 0.0;              ///< |rho/rho0 - 1|
+  double largest_overlap = 0.0;                    ///< overlap / diameter
+  double deepest_in_wall = 0.0;                    ///< water behind the true surface of a wall, over dp
   std::uint32_t deepest_in_wall_id = 0xffffffffu;  ///< of that particle
   std::int64_t fluid_particles = 0, wall_particles = 0, grains = 0;
   std::int64_t lost_fluid = 0, lost_grains = 0;
   std::int64_t rebuilds = 0, grain_substeps = 0;
-  double awake_share = 1.0;           ///< of the water (clusters that the passes run over)
+  double awake_share = 1.0;  ///< of the water (clusters that the passes run over)
 };
 
 /// State of a rigid body for output.
@@ -48,13 +48,13 @@ struct BodyPose {
   Vec3d centre, velocity, angular_velocity;
   double rotation[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   bool present = true;
-  Vec3d force, torque;                ///< N, N m about the centre: free bodies, of all but gravity; others, of the water
+  Vec3d force, torque;  ///< N, N m about the centre: free bodies, of all but gravity; others, of the water
 };
 
 /// What every step leaves behind at no cost. SI units.
 struct StepState {
-  double time_step = 0.0;             ///< s, of the step just taken
-  double acoustic_step = 0.0;         ///< s, what the sound speed alone would have allowed; 0 without water
+  double time_step = 0.0;      ///< s, of the step just taken
+  double acoustic_step = 0.0;  ///< s, what the sound speed alone would have allowed; 0 without water
   double mach = 0.0;
   double largest_density_error = 0.0;
 };
@@ -77,7 +77,7 @@ class Simulation {
   virtual double last_time_step() const = 0;
   virtual std::string limited_by() const = 0;
   virtual StepState step_state() const = 0;
-  virtual double sound_speed() const = 0;   ///< m/s
+  virtual double sound_speed() const = 0;  ///< m/s
   /// For a run in trouble: steps of water and grains are `step_factor` (0 to 1) of what they would be, and the sound
   /// speed is `sound_speed` (m/s), pressures staying as they are. 1 and sound_speed() change nothing, to the last bit.
   virtual void set_caution(double step_factor, double sound_speed) = 0;

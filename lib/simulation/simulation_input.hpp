@@ -20,21 +20,21 @@ enum class TimeScheme {
 struct CouplingParameters {
   bool enabled = true;
   coupling::Drag drag = coupling::Drag::di_felice;
-  double smoothing_length = 0.0;   ///< m; 0: max(h, 2 d_max)
-  double added_mass = 0.5;         ///< coefficient times displaced fluid mass
+  double smoothing_length = 0.0;      ///< m; 0: max(h, 2 d_max)
+  double added_mass = 0.5;            ///< coefficient times displaced fluid mass
   std::vector<double> real_diameter;  ///< m per grain group, for drag; 0: the grain's own
 };
 
 struct TimeParameters {
   TimeScheme scheme = TimeScheme::split;
-  double cfl = 0.0;                ///< 0: the scheme's own (split 0.5, verlet 0.2)
-  double fixed_step = 0.0;         ///< s; > 0: no adaption
-  bool multirate = true;           ///< grains sub-step inside the fluid's step
-  double grain_step_share = 0.2;   ///< of the Rayleigh or contact time
+  double cfl = 0.0;               ///< 0: the scheme's own (split 0.5, verlet 0.2)
+  double fixed_step = 0.0;        ///< s; > 0: no adaption
+  bool multirate = true;          ///< grains sub-step inside the fluid's step
+  double grain_step_share = 0.2;  ///< of the Rayleigh or contact time
 };
 
 struct SimulationInput {
-  Vec3d lower, upper;              ///< m, the domain
+  Vec3d lower, upper;  ///< m, the domain
   bool periodic[3] = {false, false, false};
   sph::FluidParameters fluid_parameters;
   FluidTable fluid;

@@ -19,8 +19,8 @@ struct AddWater {
   const FixedPosition* position;
   const Vec3f* velocity;
   const std::uint32_t* id;
-  double units;        // per m/s
-  float fast2;         // (m/s)^2
+  double units;  // per m/s
+  float fast2;   // (m/s)^2
   std::int64_t* sums;
   GDESP_HD void operator()(Index s) const {
     if (id[s] == no_particle) return;
@@ -154,7 +154,9 @@ Activity<Exec>::Activity(const Exec& exec, const Domain& domain, const ActivityP
 }
 
 template <class Exec>
-double Activity<Exec>::speed_scale() const { return std::sqrt(gravity_ * dp_); }
+double Activity<Exec>::speed_scale() const {
+  return std::sqrt(gravity_ * dp_);
+}
 
 template <class Exec>
 void Activity<Exec>::set_sleeping() {
@@ -163,19 +165,22 @@ void Activity<Exec>::set_sleeping() {
 }
 
 template <class Exec>
-void Activity<Exec>::begin() { sums_.fill_bytes(0); }
+void Activity<Exec>::begin() {
+  sums_.fill_bytes(0);
+}
 
 template <class Exec>
 void Activity<Exec>::add_water(const FixedPosition* position, const Vec3f* velocity, const std::uint32_t* id,
                                Index count) {
   const double fast = parameters_.splash_speed * speed_scale();
-  exec::parallel_for(exec_, "activity::water", count,
-                     AddWater{grid_, position, velocity, id, units_per(speed_scale()), static_cast<float>(fast * fast), sums_.data()});
+  exec::parallel_for(
+      exec_, "activity::water", count,
+      AddWater{grid_, position, velocity, id, units_per(speed_scale()), static_cast<float>(fast * fast), sums_.data()});
 }
 
 template <class Exec>
-void Activity<Exec>::add_accelerations(const FixedPosition* position, const Vec3f* acceleration, const std::uint32_t* id,
-                                       Index count) {
+void Activity<Exec>::add_accelerations(const FixedPosition* position, const Vec3f* acceleration,
+                                       const std::uint32_t* id, Index count) {
   exec::parallel_for(exec_, "activity::water", count,
                      AddWater{grid_, position, acceleration, id, units_per(gravity_), INFINITY, sums_.data()});
 }

@@ -18,10 +18,10 @@ namespace gdesp::sph {
 /// they move), by slot.
 struct Movers {
   const FixedPosition* position = nullptr;
-  const Vec3f* velocity = nullptr;   ///< m/s
+  const Vec3f* velocity = nullptr;  ///< m/s
   const std::uint32_t* id = nullptr;
   Index count = 0;
-  bool always = false;               ///< even at rest
+  bool always = false;  ///< even at rest
 };
 
 /// Clusters chosen from a set, in their order.
@@ -35,11 +35,13 @@ class ClusterSelection {
   void choose(const BlockGrid& grid, const Index* mark, const FixedPosition* position, const std::uint32_t* id,
               Index clusters);
   const Index* list() const { return list_.data(); }
-  const Index* flag() const { return flag_.data(); }   ///< per cluster
+  const Index* flag() const { return flag_.data(); }  ///< per cluster
   Index count() const { return count_; }
 
   template <class Archive>
-  void archive(Archive& a) { a(count_, flag_, list_); }
+  void archive(Archive& a) {
+    a(count_, flag_, list_);
+  }
 
  private:
   Exec exec_{};
@@ -61,17 +63,20 @@ class Activity {
   /// (m/s2) are judged as well: begin(), add_accelerations(), judge(t, true).
   void begin();
   void add_water(const FixedPosition* position, const Vec3f* velocity, const std::uint32_t* id, Index count);
-  void add_accelerations(const FixedPosition* position, const Vec3f* acceleration, const std::uint32_t* id, Index count);
+  void add_accelerations(const FixedPosition* position, const Vec3f* acceleration, const std::uint32_t* id,
+                         Index count);
   void add_movers(const Movers& movers);
   void judge(double t, bool accelerations);
   void decide(double t);
 
   const BlockGrid& grid() const { return grid_; }
-  const Index* awake() const { return awake_.data(); }   ///< per block
-  const Index* near() const { return near_.data(); }     ///< per block: awake or beside an awake one
+  const Index* awake() const { return awake_.data(); }  ///< per block
+  const Index* near() const { return near_.data(); }    ///< per block: awake or beside an awake one
 
   template <class Archive>
-  void archive(Archive& a) { a(sleeps_, disturbed_at_, awake_, near_); }
+  void archive(Archive& a) {
+    a(sleeps_, disturbed_at_, awake_, near_);
+  }
 
  private:
   double speed_scale() const;  // m/s, sqrt(g dp)
@@ -81,8 +86,8 @@ class Activity {
   double dp_ = 0.0, gravity_ = 0.0;
   bool sleeps_ = false;
   BlockGrid grid_;
-  Array<std::int64_t, Exec> sums_;      ///< block_rows per block
-  Array<double, Exec> disturbed_at_;    ///< s
+  Array<std::int64_t, Exec> sums_;    ///< block_rows per block
+  Array<double, Exec> disturbed_at_;  ///< s
   Array<Index, Exec> awake_, near_;
 };
 
@@ -92,7 +97,9 @@ struct ChosenClusters {
   const Index* index;
   Body body;
   template <class Lanes>
-  GDESP_HD void operator()(Index k, const Lanes& lanes) const { body(index ? index[k] : k, lanes); }
+  GDESP_HD void operator()(Index k, const Lanes& lanes) const {
+    body(index ? index[k] : k, lanes);
+  }
 };
 
 /// The same for the slots of chosen clusters.
@@ -107,8 +114,12 @@ struct ChosenSlots {
 };
 
 template <class Body>
-ChosenClusters<Body> chosen_clusters(const Index* index, const Body& body) { return {index, body}; }
+ChosenClusters<Body> chosen_clusters(const Index* index, const Body& body) {
+  return {index, body};
+}
 template <class Body>
-ChosenSlots<Body> chosen_slots(const Index* index, const Body& body) { return {index, body}; }
+ChosenSlots<Body> chosen_slots(const Index* index, const Body& body) {
+  return {index, body};
+}
 
 }  // namespace gdesp::sph

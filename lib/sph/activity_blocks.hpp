@@ -12,11 +12,13 @@ using exec::Index;
 
 struct BlockGrid {
   Domain domain;
-  int shift[3] = {0, 0, 0};            ///< bits of a fraction that lie below a block
+  int shift[3] = {0, 0, 0};  ///< bits of a fraction that lie below a block
   Vec3<std::int32_t> count{1, 1, 1};
 
   GDESP_HD Index blocks() const { return count.x * count.y * count.z; }
-  GDESP_HD Index number(std::int32_t x, std::int32_t y, std::int32_t z) const { return (z * count.y + y) * count.x + x; }
+  GDESP_HD Index number(std::int32_t x, std::int32_t y, std::int32_t z) const {
+    return (z * count.y + y) * count.x + x;
+  }
   GDESP_HD Vec3<std::int32_t> coordinates(Index b) const {
     return {b % count.x, (b / count.x) % count.y, b / (count.x * count.y)};
   }

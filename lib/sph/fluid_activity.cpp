@@ -56,8 +56,8 @@ void FluidSystem<Exec>::update_activity(double t, const Movers& movers) {
     exec::parallel_for(exec_, "activity::rest", slots(),
                        Rest{awake_.flag(), velocity_.data(), rate_.data(), record_.data()});
   }
-  near_walls_.choose(activity_.grid(), parameters_.activity.near_walls ? activity_.near() : nullptr, wall_position_.data(), wall_id_.data(),
-                     wall_set_.clusters());
+  near_walls_.choose(activity_.grid(), parameters_.activity.near_walls ? activity_.near() : nullptr,
+                     wall_position_.data(), wall_id_.data(), wall_set_.clusters());
 }
 
 template <class Exec>

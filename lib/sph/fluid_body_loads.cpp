@@ -18,16 +18,16 @@ namespace {
 template <Viscosity Kind>
 struct WallForces {
   FluidPairLaw law;
-  float scale;                  // rho0 dp^dimensions c^2, J
+  float scale;  // rho0 dp^dimensions c^2, J
   ClusterListView list;
   const float* fluid;
   const float* walls;
   const float* wall_friction;
   const std::int32_t* body;
-  const std::int32_t* asked;    // by body number
-  const float* own_pressure;    // of the fluid; null: A of the record
-  const float* wall_ghost;      // null: no no-slip walls
-  float* force;                 // fx fy fz, 4 each, per cluster
+  const std::int32_t* asked;  // by body number
+  const float* own_pressure;  // of the fluid; null: A of the record
+  const float* wall_ghost;    // null: no no-slip walls
+  float* force;               // fx fy fz, 4 each, per cluster
 
   template <class Lanes>
   GDESP_HD void operator()(Index c, const Lanes& lanes) const {
@@ -66,7 +66,7 @@ struct AddLoads {
   const WallBodyState* bodies;
   const float* force;
   double inverse_unit, inverse_torque_unit;
-  std::int64_t* sum;            // 6 a body
+  std::int64_t* sum;  // 6 a body
   GDESP_HD void operator()(Index s) const {
     if (id[s] == no_particle || !asked[body[s]]) return;
     const float* f = force + 12 * static_cast<std::int64_t>(s / exec::cluster_size) + s % exec::cluster_size;
@@ -105,17 +105,20 @@ std::vector<WallLoad> FluidSystem<Exec>::body_loads(const std::vector<std::int32
     run(WallForces<Viscosity::none>{pair_law(), scale, list, record_.data(), wall_record_.data(), wall_friction_.data(),
                                     wall_body_.data(), body_asked_.data(), own_pressure, ghost, body_force_.data()});
   } else if (p.viscosity == Viscosity::morris) {
-    run(WallForces<Viscosity::morris>{pair_law(), scale, list, record_.data(), wall_record_.data(), wall_friction_.data(),
-                                      wall_body_.data(), body_asked_.data(), own_pressure, ghost, body_force_.data()});
+    run(WallForces<Viscosity::morris>{pair_law(), scale, list, record_.data(), wall_record_.data(),
+                                      wall_friction_.data(), wall_body_.data(), body_asked_.data(), own_pressure, ghost,
+                                      body_force_.data()});
   } else {
-    run(WallForces<Viscosity::artificial>{pair_law(), scale, list, record_.data(), wall_record_.data(), wall_friction_.data(),
-                                          wall_body_.data(), body_asked_.data(), own_pressure, ghost, body_force_.data()});
+    run(WallForces<Viscosity::artificial>{pair_law(), scale, list, record_.data(), wall_record_.data(),
+                                          wall_friction_.data(), wall_body_.data(), body_asked_.data(), own_pressure,
+                                          ghost, body_force_.data()});
   }
   // The force of a pressure rho0 c^2 on one particle's face is 2^40 units: sums reach 2^23 of them. Torques: arms of dp.
   const double unit = std::ldexp(p.reference_density * c2 * volume / p.dp, -40), torque_unit = unit * p.dp;
-  exec::parallel_for(exec_, "sph::body_loads", wall_set_.slots(),
-                     AddLoads{domain_, wall_id_.data(), wall_body_.data(), body_asked_.data(), wall_position_.data(),
-                              wall_bodies_.data(), body_force_.data(), 1.0 / unit, 1.0 / torque_unit, body_sum_.data()});
+  exec::parallel_for(
+      exec_, "sph::body_loads", wall_set_.slots(),
+      AddLoads{domain_, wall_id_.data(), wall_body_.data(), body_asked_.data(), wall_position_.data(),
+               wall_bodies_.data(), body_force_.data(), 1.0 / unit, 1.0 / torque_unit, body_sum_.data()});
   const std::vector<std::int64_t> sum = body_sum_.to_host();
   for (std::size_t b = 0; b < bodies; ++b) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -126,6 +129,7 @@ std::vector<WallLoad> FluidSystem<Exec>::body_loads(const std::vector<std::int32
   return loads;
 }
 
-template std::vector<WallLoad> FluidSystem<exec::CompiledBackend>::body_loads(const std::vector<std::int32_t>&, LoadsOf);
+template std::vector<WallLoad> FluidSystem<exec::CompiledBackend>::body_loads(const std::vector<std::int32_t>&,
+                                                                              LoadsOf);
 
 }  // namespace gdesp::sph

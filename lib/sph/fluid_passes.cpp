@@ -15,8 +15,8 @@ enum RecordRow { row_x = 0, row_y = 4, row_z = 8, row_B = 12, row_vx = 16, row_v
 template <bool WithMomentum, bool WithContinuity, Viscosity Kind>
 struct FluidPass {
   FluidPairLaw law;
-  float c2;                     // m2/s2
-  float diffusion;              // 2 delta h c, m2/s
+  float c2;         // m2/s2
+  float diffusion;  // 2 delta h c, m2/s
   ClusterListView fluid_list, wall_list;
   const float* fluid;
   const float* walls;
@@ -29,20 +29,21 @@ struct FluidPass {
   ClusterTrim fluid_trim, wall_trim;
 
   template <class Real>
-  struct Particle { Real x, y, z, vx, vy, vz, A; };
+  struct Particle {
+    Real x, y, z, vx, vy, vz, A;
+  };
 
   template <bool Wall, class Lanes>
-  GDESP_HD void add_cluster(const Lanes& lanes, const Particle<typename Lanes::Real>& i, const float* rj, const float* vj,
-                            const typename Lanes::Real& friction, const Vec3f& shift,
+  GDESP_HD void add_cluster(const Lanes& lanes, const Particle<typename Lanes::Real>& i, const float* rj,
+                            const float* vj, const typename Lanes::Real& friction, const Vec3f& shift,
                             FluidRates<typename Lanes::Real>& rates) const {
     using Real = typename Lanes::Real;
     Real A_j = lanes.load_j(rj + row_A);
     if constexpr (Wall) A_j = pressing_wall(A_j, i.A);
     add_fluid_pair<WithMomentum, WithContinuity, Kind, !Wall>(
         law, i.x + Real(shift.x) - lanes.load_j(rj + row_x), i.y + Real(shift.y) - lanes.load_j(rj + row_y),
-        i.z + Real(shift.z) - lanes.load_j(rj + row_z), i.vx - lanes.load_j(vj),
-        i.vy - lanes.load_j(vj + 4), i.vz - lanes.load_j(vj + 8), i.A, A_j, lanes.load_j(rj + row_B), friction,
-        rates);
+        i.z + Real(shift.z) - lanes.load_j(rj + row_z), i.vx - lanes.load_j(vj), i.vy - lanes.load_j(vj + 4),
+        i.vz - lanes.load_j(vj + 8), i.A, A_j, lanes.load_j(rj + row_B), friction, rates);
   }
 
   template <class Lanes>
@@ -53,8 +54,12 @@ struct FluidPass {
       wall_trim(c, lanes);
     }
     const float* ri = fluid + record_offset(c);
-    const Particle<Real> i{lanes.load_i(ri + row_x),  lanes.load_i(ri + row_y),  lanes.load_i(ri + row_z),
-                           lanes.load_i(ri + row_vx), lanes.load_i(ri + row_vy), lanes.load_i(ri + row_vz),
+    const Particle<Real> i{lanes.load_i(ri + row_x),
+                           lanes.load_i(ri + row_y),
+                           lanes.load_i(ri + row_z),
+                           lanes.load_i(ri + row_vx),
+                           lanes.load_i(ri + row_vy),
+                           lanes.load_i(ri + row_vz),
                            lanes.load_i(own_pressure ? own_pressure + 4 * static_cast<std::int64_t>(c) : ri + row_A)};
     FluidRates<Real> rates;
     for_each_cluster(fluid_list, c, [&](Index j, const Vec3f& shift) {
@@ -64,8 +69,7 @@ struct FluidPass {
     for_each_cluster(wall_list, c, [&](Index j, const Vec3f& shift) {
       const float* rj = walls + record_offset(j);
       const float* vj = wall_ghost ? wall_ghost + 16 * static_cast<std::int64_t>(j) : rj + row_vx;
-      add_cluster<true>(lanes, i, rj, vj, lanes.load_j(wall_friction + 4 * static_cast<std::int64_t>(j)),
-                        shift, rates);
+      add_cluster<true>(lanes, i, rj, vj, lanes.load_j(wall_friction + 4 * static_cast<std::int64_t>(j)), shift, rates);
     });
     float* out = rate + 16 * static_cast<std::int64_t>(c);
     // V_i / (m_i / rho0), that is rho0 / rho_i (and 1 in the form of the paper).
@@ -90,7 +94,8 @@ struct LatticeShare {
   const float* walls;
   float* share;
   template <class Lanes>
-  GDESP_HD typename Lanes::Real sum(const ClusterListView& list, Index c, const float* others, const Lanes& lanes) const {
+  GDESP_HD typename Lanes::Real sum(const ClusterListView& list, Index c, const float* others,
+                                    const Lanes& lanes) const {
     using Real = typename Lanes::Real;
     using real::max;
     using real::sqrt;
@@ -142,8 +147,8 @@ struct ExtrapolateWalls {
     });
     if (!any) return;
     lanes.store_sum_i(ri + row_B, sums.weight);
-    lanes.store_sum_i(ri + row_A, sums.pressure + Real(law.gx) * sums.rx + Real(law.gy) * sums.ry +
-                                      Real(law.gz) * sums.rz);
+    lanes.store_sum_i(ri + row_A,
+                      sums.pressure + Real(law.gx) * sums.rx + Real(law.gy) * sums.ry + Real(law.gz) * sums.rz);
     if constexpr (NoSlip) {
       float* out = ghost + 16 * static_cast<std::int64_t>(c);
       lanes.store_sum_i(out, sums.vx);
@@ -151,7 +156,8 @@ struct ExtrapolateWalls {
       lanes.store_sum_i(out + 8, sums.vz);
       if (!surface) return;
       const float* n = surface + 16 * static_cast<std::int64_t>(c);
-      lanes.store_sum_i(out + 12, Real(0.0f) - lanes.load_i(n) * sums.rx - lanes.load_i(n + 4) * sums.ry - lanes.load_i(n + 8) * sums.rz);
+      lanes.store_sum_i(out + 12, Real(0.0f) - lanes.load_i(n) * sums.rx - lanes.load_i(n + 4) * sums.ry -
+                                      lanes.load_i(n + 8) * sums.rz);
     }
   }
 };
@@ -161,7 +167,7 @@ struct FinishWalls {
   const std::uint32_t* count;
   const float* friction;
   float* walls;
-  float* ghost;   // null: no no-slip walls
+  float* ghost;          // null: no no-slip walls
   const float* surface;  // as above
   GDESP_HD void operator()(Index slot) const {
     const Index c = slot / exec::cluster_size;
@@ -249,8 +255,8 @@ struct ControlTension {
   const float* near_surface;
   float* own_pressure;
   GDESP_HD void operator()(Index s) const {
-    own_pressure[s] = controlled_pressure(record[record_offset(s / exec::cluster_size) + row_A + s % exec::cluster_size],
-                                          near_surface[s]);
+    own_pressure[s] = controlled_pressure(
+        record[record_offset(s / exec::cluster_size) + row_A + s % exec::cluster_size], near_surface[s]);
   }
 };
 
@@ -342,15 +348,16 @@ void FluidSystem<Exec>::run_fluid_pass_kind(const char* name) {
   const auto cutoff = static_cast<float>(2.0 * p.h + trim_skin_);
   const bool trims = M && trims_next_;
   if (trims) trims_next_ = false;
-  exec::pair_pass(exec_, name, awake_clusters(), chosen_clusters(awake_list(),
-                  FluidPass<M, C, K>{pair_law(), static_cast<float>(p.sound_speed * p.sound_speed),
-                                     static_cast<float>(2.0 * p.density_diffusion * p.h * p.sound_speed),
-                                     fluid_fluid_.view(), fluid_wall_.view(), record_.data(), wall_record_.data(),
-                                     wall_friction_.data(), mass_share_.data(),
-                                     M && !C && p.tensile_control ? own_pressure_.data() : nullptr,
-                                     M && !C && no_slip_ ? wall_ghost_.data() : nullptr, rate_.data(), trims,
-                                     fluid_fluid_.trim(record_.data(), record_.data(), cutoff),
-                                     fluid_wall_.trim(record_.data(), wall_record_.data(), cutoff)}));
+  exec::pair_pass(exec_, name, awake_clusters(),
+                  chosen_clusters(awake_list(), FluidPass<M, C, K>{
+                                                    pair_law(), static_cast<float>(p.sound_speed * p.sound_speed),
+                                                    static_cast<float>(2.0 * p.density_diffusion * p.h * p.sound_speed),
+                                                    fluid_fluid_.view(), fluid_wall_.view(), record_.data(),
+                                                    wall_record_.data(), wall_friction_.data(), mass_share_.data(),
+                                                    M && !C && p.tensile_control ? own_pressure_.data() : nullptr,
+                                                    M && !C && no_slip_ ? wall_ghost_.data() : nullptr, rate_.data(),
+                                                    trims, fluid_fluid_.trim(record_.data(), record_.data(), cutoff),
+                                                    fluid_wall_.trim(record_.data(), wall_record_.data(), cutoff)}));
 }
 
 template <class Exec>
@@ -377,11 +384,17 @@ void FluidSystem<Exec>::spacing_pass() {
 }
 
 template <class Exec>
-void FluidSystem<Exec>::momentum_pass() { run_fluid_pass<true, false>("sph::momentum"); }
+void FluidSystem<Exec>::momentum_pass() {
+  run_fluid_pass<true, false>("sph::momentum");
+}
 template <class Exec>
-void FluidSystem<Exec>::continuity_pass() { run_fluid_pass<false, true>("sph::continuity"); }
+void FluidSystem<Exec>::continuity_pass() {
+  run_fluid_pass<false, true>("sph::continuity");
+}
 template <class Exec>
-void FluidSystem<Exec>::combined_pass() { run_fluid_pass<true, true>("sph::momentum_and_continuity"); }
+void FluidSystem<Exec>::combined_pass() {
+  run_fluid_pass<true, true>("sph::momentum_and_continuity");
+}
 
 template <class Exec>
 void FluidSystem<Exec>::extrapolate_walls() {
@@ -389,13 +402,15 @@ void FluidSystem<Exec>::extrapolate_walls() {
   float* ghost = no_slip_ ? wall_ghost_.data() : nullptr;
   const float* surface = guarded_ ? wall_surface_.data() : nullptr;
   if (no_slip_) {
-    exec::pair_pass(exec_, "sph::walls", near_walls_.count(),
-                    chosen_clusters(near_walls_.list(), ExtrapolateWalls<true>{pair_law(), wall_fluid_.view(), record_.data(),
-                                                                               wall_record_.data(), ghost, surface}));
+    exec::pair_pass(
+        exec_, "sph::walls", near_walls_.count(),
+        chosen_clusters(near_walls_.list(), ExtrapolateWalls<true>{pair_law(), wall_fluid_.view(), record_.data(),
+                                                                   wall_record_.data(), ghost, surface}));
   } else {
-    exec::pair_pass(exec_, "sph::walls", near_walls_.count(),
-                    chosen_clusters(near_walls_.list(), ExtrapolateWalls<false>{pair_law(), wall_fluid_.view(), record_.data(),
-                                                                                wall_record_.data(), nullptr, nullptr}));
+    exec::pair_pass(
+        exec_, "sph::walls", near_walls_.count(),
+        chosen_clusters(near_walls_.list(), ExtrapolateWalls<false>{pair_law(), wall_fluid_.view(), record_.data(),
+                                                                    wall_record_.data(), nullptr, nullptr}));
   }
   exec::parallel_for(exec_, "sph::walls_finish", exec::cluster_size * near_walls_.count(),
                      chosen_slots(near_walls_.list(), FinishWalls{wall_fluid_.view().count, wall_friction_.data(),

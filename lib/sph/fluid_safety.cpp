@@ -49,8 +49,7 @@ template <class Exec>
 DeepestInWall FluidSystem<Exec>::deepest_in_wall() {
   if (!guarded_) return {};
   return exec::reduce(exec_, "sph::deepest_in_wall", awake_slots(), DeepestInWall{},
-                      chosen_slots(awake_list(), DepthInWall{near_wall_.data(), id_.data()}),
-                      Deeper{});
+                      chosen_slots(awake_list(), DepthInWall{near_wall_.data(), id_.data()}), Deeper{});
 }
 
 template <class Exec>

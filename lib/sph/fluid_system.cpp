@@ -44,7 +44,8 @@ struct KeepFilling {
     filling[2 * static_cast<std::int64_t>(s)] = density[s];
     const float* q = count + 8 * static_cast<std::int64_t>(s / exec::cluster_size) + s % exec::cluster_size;
     // NOLINTNEXTLINE(clang-analyzer-core.NullDereference): null only where there is no slot
-    filling[2 * static_cast<std::int64_t>(s) + 1] = share_of(q[0] / real::max(1.0f - q[4], 0.1f));   // of the room that walls leave
+    filling[2 * static_cast<std::int64_t>(s) + 1] =
+        share_of(q[0] / real::max(1.0f - q[4], 0.1f));  // of the room that walls leave
   }
 };
 // Water at its true density in pores: the masses are what the pores hold, over the particles that the table has there (all
@@ -84,7 +85,8 @@ struct SetOne {
 };
 
 std::uint64_t column_key(const Vec3d& r, double width) {
-  const auto ix = static_cast<std::int64_t>(std::floor(r.x / width)), iy = static_cast<std::int64_t>(std::floor(r.y / width));
+  const auto ix = static_cast<std::int64_t>(std::floor(r.x / width)),
+             iy = static_cast<std::int64_t>(std::floor(r.y / width));
   return (static_cast<std::uint64_t>(ix) << 32) ^ (static_cast<std::uint64_t>(iy) & 0xffffffffu);
 }
 
@@ -122,12 +124,13 @@ FluidSystem<Exec>::FluidSystem(const Exec& exec, const Domain& domain, const Flu
                                const FluidTable& fluid, const BoundaryTable& walls)
     : exec_(exec), domain_(domain), parameters_(parameters), set_(exec, domain, 2.0 * parameters.dp),
       wall_set_(exec, domain, 2.0 * parameters.dp), fluid_fluid_(exec), fluid_wall_(exec), wall_fluid_(exec),
-      activity_(exec, domain, parameters.activity, parameters.dp, norm(parameters.gravity)), awake_(exec), near_walls_(exec),
-      position_(exec), velocity_(exec), density_(exec), id_(exec), mass_share_(exec), porosity_(exec), external_(exec),
-      record_(exec), rate_(exec), wall_position_(exec), wall_start_(exec), wall_velocity_(exec), wall_body_(exec),
-      wall_density_(exec), wall_friction_(exec), wall_id_(exec), wall_record_(exec), wall_rate_(exec),
-      wall_normal_(exec), wall_depth_(exec), wall_surface_(exec), near_wall_(exec), wall_ghost_(exec), spacing_(exec),
-      near_surface_(exec), own_pressure_(exec), wall_bodies_(exec), body_asked_(exec), body_sum_(exec), body_force_(exec), filling_(exec) {
+      activity_(exec, domain, parameters.activity, parameters.dp, norm(parameters.gravity)), awake_(exec),
+      near_walls_(exec), position_(exec), velocity_(exec), density_(exec), id_(exec), mass_share_(exec),
+      porosity_(exec), external_(exec), record_(exec), rate_(exec), wall_position_(exec), wall_start_(exec),
+      wall_velocity_(exec), wall_body_(exec), wall_density_(exec), wall_friction_(exec), wall_id_(exec),
+      wall_record_(exec), wall_rate_(exec), wall_normal_(exec), wall_depth_(exec), wall_surface_(exec),
+      near_wall_(exec), wall_ghost_(exec), spacing_(exec), near_surface_(exec), own_pressure_(exec), wall_bodies_(exec),
+      body_asked_(exec), body_sum_(exec), body_force_(exec), filling_(exec) {
   start_fluid(fluid);
   start_walls(walls);
   sort_walls();
@@ -187,7 +190,7 @@ void FluidSystem<Exec>::sort_fluid() {
   lost_ += set_.lost();
   const Index n = set_.slots();
   const Index* source = set_.source();
-  record_.resize_discard(static_cast<std::size_t>(set_.clusters()) * record_size);   // the room for all below
+  record_.resize_discard(static_cast<std::size_t>(set_.clusters()) * record_size);  // the room for all below
   exec::permute(exec_, position_, record_, source, n, FixedPosition{});
   if (domain_.periodic[0] || domain_.periodic[1] || domain_.periodic[2]) {
     exec::parallel_for(exec_, "sort::gather", n, WrapPosition{domain_, position_.data()});
@@ -217,7 +220,7 @@ void FluidSystem<Exec>::sort_walls() {
   wall_set_.build(wall_position_, wall_id_, static_cast<Index>(wall_position_.size()), wall_record_);
   const Index n = wall_set_.slots();
   const Index* source = wall_set_.source();
-  wall_record_.resize_discard(static_cast<std::size_t>(wall_set_.clusters()) * record_size);   // the room for all below
+  wall_record_.resize_discard(static_cast<std::size_t>(wall_set_.clusters()) * record_size);  // the room for all below
   exec::permute(exec_, wall_position_, wall_record_, source, n, FixedPosition{});
   if (walls_move_) exec::permute(exec_, wall_start_, wall_record_, source, n, FixedPosition{});
   exec::permute(exec_, wall_velocity_, wall_record_, source, n, Vec3f{});
@@ -253,9 +256,9 @@ template <class Exec>
 void FluidSystem<Exec>::rebuild(double move_per_step, double t, const Movers& movers, double next_move) {
   // A rebuild costs about a pass of each kind every s/(2 m) steps, the skin 0.4 s/h of a pass every step, when lists are
   // trimmed: the sum is least near s = sqrt(5 m h) (docs/decisions/0011).
-  skin_ = parameters_.skin > 0.0 ? parameters_.skin
-                                 : std::clamp(std::sqrt(5.0 * move_per_step * parameters_.h), 0.06 * parameters_.h,
-                                              0.8 * parameters_.h);
+  skin_ = parameters_.skin > 0.0
+              ? parameters_.skin
+              : std::clamp(std::sqrt(5.0 * move_per_step * parameters_.h), 0.06 * parameters_.h, 0.8 * parameters_.h);
   skin_ = std::max(skin_, 2.1 * next_move);
   sort_fluid();
   pack_all();
@@ -315,7 +318,8 @@ void FluidSystem<Exec>::fill_pores(bool first) {
     lattice_share_pass(count.data());
     filling_.resize_discard(2 * static_cast<std::size_t>(slots()));
     const ShareOfCount share_of(parameters_.h / parameters_.dp, parameters_.dimensions);
-    exec::parallel_for(exec_, "sph::keep_filling", slots(), KeepFilling{share_of, density_.data(), count.data(), filling_.data()});
+    exec::parallel_for(exec_, "sph::keep_filling", slots(),
+                       KeepFilling{share_of, density_.data(), count.data(), filling_.data()});
   }
   exec::parallel_for(exec_, "sph::fill_pores", slots(),
                      FillPores{id_.data(), porosity_.data(), filling_.data(), density_.data(), mass_share_.data()});
@@ -332,7 +336,8 @@ FluidTable FluidSystem<Exec>::table(float density_lag) const {
   const auto rate = rate_.to_host();
   const auto id = id_.to_host();
   std::vector<std::size_t> order;
-  for (std::size_t s = 0; s < id.size(); ++s) if (id[s] != no_particle) order.push_back(s);
+  for (std::size_t s = 0; s < id.size(); ++s)
+    if (id[s] != no_particle) order.push_back(s);
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return id[a] < id[b]; });
   FluidTable t;
   const double stiffness = parameters_.reference_density * parameters_.sound_speed * parameters_.sound_speed;
@@ -342,7 +347,8 @@ FluidTable FluidSystem<Exec>::table(float density_lag) const {
     t.position.push_back(domain_.metres(position[s]));
     t.velocity.push_back(velocity[s]);
     t.density.push_back(static_cast<float>(parameters_.reference_density * (1.0 + static_cast<double>(D))));
-    t.pressure.push_back(static_cast<float>(stiffness * static_cast<double>(cavitated_pressure(tait_pressure(D), parameters_.cavitates))));
+    t.pressure.push_back(static_cast<float>(
+        stiffness * static_cast<double>(cavitated_pressure(tait_pressure(D), parameters_.cavitates))));
     t.porosity.push_back(eps);
     t.mass_share.push_back(share[s]);
     t.id.push_back(id[s]);
@@ -358,7 +364,8 @@ BoundaryTable FluidSystem<Exec>::wall_table() const {
   const auto id = wall_id_.to_host();
   const auto body = wall_body_.to_host();
   std::vector<std::size_t> order;
-  for (std::size_t s = 0; s < id.size(); ++s) if (id[s] != no_particle) order.push_back(s);
+  for (std::size_t s = 0; s < id.size(); ++s)
+    if (id[s] != no_particle) order.push_back(s);
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return id[a] < id[b]; });
   BoundaryTable t;
   const double stiffness = parameters_.reference_density * parameters_.sound_speed * parameters_.sound_speed;

@@ -29,10 +29,10 @@ struct KickDrift {
   float dt, dt_position;
   const float* near_wall;  // null: no guard
   float sound_speed, dp;
-  const float* spacing;    // null: no shifting
+  const float* spacing;  // null: no shifting
   const float* near_surface;
-  float shift_strength;    // k h, m
-  float fastest;           // m/s
+  float shift_strength;  // k h, m
+  float fastest;         // m/s
   GDESP_HD NearWall wall_at(Index s) const {
     const float* w = near_wall + 24 * static_cast<std::int64_t>(s / exec::cluster_size) + s % exec::cluster_size;
     return {w[0], w[4], w[8], w[12], w[16], w[20]};
@@ -154,7 +154,8 @@ struct SumOf {
     sum.kinetic_energy = 0.5 * m * dot(v, v);
     sum.potential_energy = -m * dot(gravity, domain.metres(state.position[s]));
     // Tait: work of compression per mass, c^2 (x^6/42 + 1/(7 x) - 1/6), x = rho/rho0.
-    const double ratio = (1.0 + static_cast<double>(state.density[s])) / (porosity ? static_cast<double>(porosity[s]) : 1.0);
+    const double ratio =
+        (1.0 + static_cast<double>(state.density[s])) / (porosity ? static_cast<double>(porosity[s]) : 1.0);
     const double x = cavitates && ratio < 1.0 ? 1.0 : ratio;  // water that has opened holds no tension
     const double x2 = x * x;
     if (x > 1.0 || !cavitates)  // opened water bears no pressure
@@ -225,15 +226,24 @@ struct PackWalls {
 
 template <class Exec>
 FluidStateView FluidSystem<Exec>::state_view() {
-  return {position_.data(), velocity_.data(), density_.data(), rate_.data(), coupled_ ? external_.data() : nullptr,
+  return {position_.data(),
+          velocity_.data(),
+          density_.data(),
+          rate_.data(),
+          coupled_ ? external_.data() : nullptr,
           static_cast<Vec3f>(parameters_.gravity)};
 }
 
 template <class Exec>
 RecordPacker FluidSystem<Exec>::packer() {
-  return {domain_, parameters_.paper_form, set_.view().cluster_tile, id_.data(),
-          porous_ ? porosity_.data() : nullptr, mass_share_.data(),
-          parameters_.cavitates, record_.data()};
+  return {domain_,
+          parameters_.paper_form,
+          set_.view().cluster_tile,
+          id_.data(),
+          porous_ ? porosity_.data() : nullptr,
+          mass_share_.data(),
+          parameters_.cavitates,
+          record_.data()};
 }
 
 template <class Exec>
@@ -255,11 +265,13 @@ void FluidSystem<Exec>::pack_all() {
 
 template <class Exec>
 void FluidSystem<Exec>::kick_drift(float dt, float dt_position, float fastest) {
-  exec::parallel_for(exec_, "sph::kick_drift", awake_slots(),
-                     chosen_slots(awake_list(), KickDrift{state_view(), packer(), dt, dt_position, guarded_ ? near_wall_.data() : nullptr,
-                                                          static_cast<float>(parameters_.sound_speed), static_cast<float>(parameters_.dp),
-                                                          parameters_.shifting > 0.0 ? spacing_.data() : nullptr, near_surface_.data(),
-                                                          static_cast<float>(parameters_.shifting * parameters_.h), fastest}));
+  exec::parallel_for(
+      exec_, "sph::kick_drift", awake_slots(),
+      chosen_slots(awake_list(),
+                   KickDrift{state_view(), packer(), dt, dt_position, guarded_ ? near_wall_.data() : nullptr,
+                             static_cast<float>(parameters_.sound_speed), static_cast<float>(parameters_.dp),
+                             parameters_.shifting > 0.0 ? spacing_.data() : nullptr, near_surface_.data(),
+                             static_cast<float>(parameters_.shifting * parameters_.h), fastest}));
 }
 
 template <class Exec>
@@ -274,35 +286,38 @@ template <class Exec>
 void FluidSystem<Exec>::verlet_correct(float dt) {
   FluidStateView state = state_view();
   state.external = nullptr;
-  exec::parallel_for(exec_, "sph::verlet_correct", awake_slots(),
-                     chosen_slots(awake_list(), VerletCorrect{state, coupled_ ? external_.data() : nullptr, id_.data(), dt}));
+  exec::parallel_for(
+      exec_, "sph::verlet_correct", awake_slots(),
+      chosen_slots(awake_list(), VerletCorrect{state, coupled_ ? external_.data() : nullptr, id_.data(), dt}));
 }
 
 template <class Exec>
 void FluidSystem<Exec>::evolve_dynamic_walls(float dt) {
   if (wall_set_.clusters() == 0 || parameters_.extrapolated_walls) return;
-  exec::parallel_for(exec_, "sph::evolve_walls", exec::cluster_size * near_walls_.count(),
-                     chosen_slots(near_walls_.list(), EvolveWalls{wall_fluid_.view().count, wall_rate_.data(),
-                                                                  wall_density_.data(), wall_record_.data(),
-                                                                  parameters_.paper_form, dt}));
+  exec::parallel_for(
+      exec_, "sph::evolve_walls", exec::cluster_size * near_walls_.count(),
+      chosen_slots(near_walls_.list(), EvolveWalls{wall_fluid_.view().count, wall_rate_.data(), wall_density_.data(),
+                                                   wall_record_.data(), parameters_.paper_form, dt}));
 }
 
 template <class Exec>
 FluidExtremes FluidSystem<Exec>::extremes() {
-  return exec::reduce(exec_, "sph::extremes", awake_slots(), FluidExtremes{},
-                      chosen_slots(awake_list(), ExtremeOf{state_view(), id_.data(), porous_ ? porosity_.data() : nullptr,
-                                                           parameters_.cavitates}),
-                      CombineExtremes{});
+  return exec::reduce(
+      exec_, "sph::extremes", awake_slots(), FluidExtremes{},
+      chosen_slots(awake_list(),
+                   ExtremeOf{state_view(), id_.data(), porous_ ? porosity_.data() : nullptr, parameters_.cavitates}),
+      CombineExtremes{});
 }
 
 template <class Exec>
 FluidSums FluidSystem<Exec>::sums() {
   const double c = parameters_.sound_speed;
   const double mass = parameters_.reference_density * std::pow(parameters_.dp, parameters_.dimensions);
-  return exec::reduce(exec_, "sph::sums", slots(), FluidSums{},
-                      SumOf{domain_, state_view(), id_.data(), mass_share_.data(),
-                            coupled_ ? porosity_.data() : nullptr, mass, c * c, parameters_.gravity, parameters_.cavitates},
-                      AddSums{});
+  return exec::reduce(
+      exec_, "sph::sums", slots(), FluidSums{},
+      SumOf{domain_, state_view(), id_.data(), mass_share_.data(), coupled_ ? porosity_.data() : nullptr, mass, c * c,
+            parameters_.gravity, parameters_.cavitates},
+      AddSums{});
 }
 
 template <class Exec>

@@ -28,7 +28,8 @@ class ShareOfCount {
  public:
   ShareOfCount(double h_over_dp, int dimensions) {
     count_[0] = static_cast<float>(wendland_normalisation(h_over_dp, dimensions));
-    for (int k = 1; k <= last; ++k) count_[k] = static_cast<float>(lattice_count(h_over_dp, dimensions, static_cast<double>(k) / last));
+    for (int k = 1; k <= last; ++k)
+      count_[k] = static_cast<float>(lattice_count(h_over_dp, dimensions, static_cast<double>(k) / last));
   }
   /// Above a full lattice in proportion; 0 where nothing but the particle itself is counted.
   GDESP_HD float operator()(float count) const {

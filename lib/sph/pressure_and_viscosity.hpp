@@ -40,12 +40,12 @@ struct FluidRates {
 
 /// Coefficients of the pair terms, SI, prepared once.
 struct FluidPairLaw {
-  float inverse_support;      ///< 1/(2h), 1/m
-  float slope;                ///< V0 5 alpha / h^2: G = slope * t^3, 1/m^2
-  float artificial;           ///< alpha h / c, s
-  float eta2;                 ///< 0.01 h^2, m2
-  float morris;               ///< 2 nu / c^2, s
-  float gx, gy, gz;           ///< gravity / c^2, 1/m
+  float inverse_support;  ///< 1/(2h), 1/m
+  float slope;            ///< V0 5 alpha / h^2: G = slope * t^3, 1/m^2
+  float artificial;       ///< alpha h / c, s
+  float eta2;             ///< 0.01 h^2, m2
+  float morris;           ///< 2 nu / c^2, s
+  float gx, gy, gz;       ///< gravity / c^2, 1/m
 };
 
 /// Adds the pair (i, j). r = r_i - r_j, v = v_i - v_j. `friction` scales viscosity (1 fluid; 0 or 1 walls).

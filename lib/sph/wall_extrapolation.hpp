@@ -21,8 +21,8 @@ namespace gdesp::sph {
 
 template <class Real>
 struct WallSums {
-  Real weight{0.0f};             ///< sum W / alpha
-  Real pressure{0.0f};           ///< sum A_f W / alpha
+  Real weight{0.0f};                  ///< sum W / alpha
+  Real pressure{0.0f};                ///< sum A_f W / alpha
   Real rx{0.0f}, ry{0.0f}, rz{0.0f};  ///< sum (r_w - r_f) W / alpha, m
   Real vx{0.0f}, vy{0.0f}, vz{0.0f};  ///< sum v_f W / alpha, m/s; of no-slip walls
 };

@@ -64,7 +64,8 @@ GDESP_HD inline Vec3f guarded_velocity(const Vec3f& v, const NearWall& wall, flo
   if (length < 0.3f * wall.weight) return v;  // opposite walls: no direction is out
   n *= 1.0f / length;
   const float s = wall.distance / wall.weight, wall_speed = wall.wall_speed / wall.weight;
-  const float least = wall_speed + (s > 0.0f ? -0.5f * s / dt : real::min(0.1f * real::max(-s - 0.1f * dp, 0.0f) / dt, 0.05f * c));
+  const float least =
+      wall_speed + (s > 0.0f ? -0.5f * s / dt : real::min(0.1f * real::max(-s - 0.1f * dp, 0.0f) / dt, 0.05f * c));
   const float along = dot(v, n);
   return along < least ? v + n * (least - along) : v;
 }

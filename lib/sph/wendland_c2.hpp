@@ -18,7 +18,7 @@
 
 namespace gdesp::sph {
 
-using gdesp::wendland_normalisation;   // alpha
+using gdesp::wendland_normalisation;  // alpha
 
 /// W / alpha at t.
 template <class Real>

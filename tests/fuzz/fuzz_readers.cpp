@@ -22,14 +22,16 @@
 #include "target.hpp"
 
 #if defined(__SANITIZE_ADDRESS__)
-extern "C" const char* __asan_default_options() { return "max_allocation_size_mb=3000:detect_leaks=0:allocator_may_return_null=0"; }
+extern "C" const char* __asan_default_options() {
+  return "max_allocation_size_mb=3000:detect_leaks=0:allocator_may_return_null=0";
+}
 #endif
 
 namespace gdesp::fuzz {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr unsigned longest_seconds = 60;   // of one input
+constexpr unsigned longest_seconds = 60;  // of one input
 
 struct Options {
   std::string corpus, keep = "fuzz-findings", only;
@@ -53,7 +55,8 @@ Seeds seeds_of(const Target& target, const std::string& corpus, const std::strin
     std::ifstream in(entry.path(), std::ios::binary);
     sorted[entry.path().filename().string()] = {std::istreambuf_iterator<char>(in), {}};
   }
-  if (target.seeds) for (auto& [name, bytes] : target.seeds(scratch)) sorted[name] = std::move(bytes);
+  if (target.seeds)
+    for (auto& [name, bytes] : target.seeds(scratch)) sorted[name] = std::move(bytes);
   Seeds out;
   for (auto& [name, bytes] : sorted) out.name.push_back(name), out.bytes.push_back(std::move(bytes));
   return out;
@@ -77,9 +80,7 @@ std::string try_one(const Target& target, const std::string& bytes, const std::s
     ++tally.refused;
     if (message.find("crashed (signal") != std::string::npos) ++tally.contained;
     return "";
-  } catch (const std::bad_alloc&) {
-    return "memory out of proportion";
-  } catch (const std::exception& e) {
+  } catch (const std::bad_alloc&) { return "memory out of proportion"; } catch (const std::exception& e) {
     return std::string("an exception that is no gdesp::Error: ") + e.what();
   }
 }
@@ -89,7 +90,8 @@ std::string name_of(const Target& target, std::uint64_t index, const std::string
 }
 
 /// Works through the inputs from tally.next on; ends early at the time limit.
-void work(const Target& target, const Seeds& seeds, const Options& o, const std::string& scratch, Tally& tally, double deadline) {
+void work(const Target& target, const Seeds& seeds, const Options& o, const std::string& scratch, Tally& tally,
+          double deadline) {
   const Mutator mutator(seeds.bytes);
   const auto start = std::chrono::steady_clock::now();
   while (tally.next < o.inputs) {
@@ -126,7 +128,9 @@ Tally run_target(const Target& target, const Options& o, const std::string& scra
   void* shared = ::mmap(nullptr, sizeof(Tally), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   Tally& tally = *new (shared) Tally;
   const auto start = std::chrono::steady_clock::now();
-  const auto left = [&] { return seconds - std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  const auto left = [&] {
+    return seconds - std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
   while (tally.next < o.inputs && left() > 0.0) {
     std::fflush(nullptr);
     const pid_t worker = ::fork();
@@ -144,7 +148,8 @@ Tally run_target(const Target& target, const Options& o, const std::string& scra
     const std::string seed = seeds.name[index % seeds.name.size()], kept = o.keep + "/" + name_of(target, index, seed);
     fs::create_directories(o.keep);
     std::error_code failed;
-    fs::copy_file(scratch + "/" + (target.needs_file ? seed : "input"), kept, fs::copy_options::overwrite_existing, failed);
+    fs::copy_file(scratch + "/" + (target.needs_file ? seed : "input"), kept, fs::copy_options::overwrite_existing,
+                  failed);
     std::fprintf(stderr, "%s: the reader died (%s %d)\n", kept.c_str(), WIFSIGNALED(status) ? "signal" : "exit",
                  WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status));
   }
@@ -173,7 +178,8 @@ int replay(const std::string& file, const std::string& only) {
     if (only != target.name) continue;
     const Scratch scratch;
     if (target.seeds) target.seeds(scratch.path);
-    const std::string path = scratch.path + "/" + name.substr(name.rfind('-') + 1);   // the seed's own name, see name_of()
+    const std::string path =
+        scratch.path + "/" + name.substr(name.rfind('-') + 1);  // the seed's own name, see name_of()
     write_file(path, bytes);
     Tally tally;
     const std::string wrong = try_one(target, bytes, path, tally);
@@ -198,14 +204,15 @@ int run(const Options& o) {
     const auto start = std::chrono::steady_clock::now();
     const Tally t = run_target(target, o, scratch.path, o.seconds / static_cast<double>(count));
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    std::printf("%s\t%llu\t%llu\t%llu\t%llu\t%llu\t%.1f\n", target.name, static_cast<unsigned long long>(t.next), static_cast<unsigned long long>(t.read),
-                static_cast<unsigned long long>(t.refused), static_cast<unsigned long long>(t.contained), static_cast<unsigned long long>(t.findings), seconds);
+    std::printf("%s\t%llu\t%llu\t%llu\t%llu\t%llu\t%.1f\n", target.name, static_cast<unsigned long long>(t.next),
+                static_cast<unsigned long long>(t.read), static_cast<unsigned long long>(t.refused),
+                static_cast<unsigned long long>(t.contained), static_cast<unsigned long long>(t.findings), seconds);
     std::fflush(stdout);
     all += t.next;
     findings += t.findings;
   }
-  std::printf("%llu inputs, %llu findings%s\n", static_cast<unsigned long long>(all), static_cast<unsigned long long>(findings),
-              findings ? (", kept in " + o.keep).c_str() : "");
+  std::printf("%llu inputs, %llu findings%s\n", static_cast<unsigned long long>(all),
+              static_cast<unsigned long long>(findings), findings ? (", kept in " + o.keep).c_str() : "");
   return findings ? 1 : 0;
 }
 
@@ -217,20 +224,30 @@ int main(int argc, char** argv) {
   std::string again;
   for (int k = 1; k + 1 < argc; k += 2) {
     const std::string key = argv[k], value = argv[k + 1];
-    if (key == "--corpus") o.corpus = value;
-    else if (key == "--target") o.only = value;
-    else if (key == "--inputs") o.inputs = std::stoull(value);
-    else if (key == "--first") o.first = std::stoull(value);
-    else if (key == "--seconds") o.seconds = std::stod(value);
-    else if (key == "--keep") o.keep = value;
-    else if (key == "--replay") again = value;
-    else argc = 0;
+    if (key == "--corpus")
+      o.corpus = value;
+    else if (key == "--target")
+      o.only = value;
+    else if (key == "--inputs")
+      o.inputs = std::stoull(value);
+    else if (key == "--first")
+      o.first = std::stoull(value);
+    else if (key == "--seconds")
+      o.seconds = std::stod(value);
+    else if (key == "--keep")
+      o.keep = value;
+    else if (key == "--replay")
+      again = value;
+    else
+      argc = 0;
   }
   if (argc % 2 == 0 || o.corpus.empty()) {
-    std::fprintf(stderr, "usage: fuzz_readers --corpus FOLDER [--target NAME] [--inputs N] [--first N] [--seconds S, of all targets] [--keep FOLDER] [--replay FILE]\n");
+    std::fprintf(stderr,
+                 "usage: fuzz_readers --corpus FOLDER [--target NAME] [--inputs N] [--first N] [--seconds S, of all "
+                 "targets] [--keep FOLDER] [--replay FILE]\n");
     return 2;
   }
-  o.keep = std::filesystem::absolute(o.keep).string();   // a target may change the current folder
+  o.keep = std::filesystem::absolute(o.keep).string();  // a target may change the current folder
   if (!again.empty()) again = std::filesystem::absolute(again).string();
   gdesp::cli::set_verbosity(gdesp::cli::Verbosity::quiet, false);
   try {

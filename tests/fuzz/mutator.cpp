@@ -13,8 +13,25 @@ using geometry::Random;
 
 constexpr std::size_t longest = 1u << 16;
 
-const char* const odd_numbers[] = {"0", "-1", "1e999", "-1e999", "nan", "inf", "1e-320", "2147483648", "-2147483649", "4294967296",
-                                   "18446744073709551616", "9999999999999999999999", "0x7f", "1.5", "1e9", "65536", "00", "+1", ""};
+const char* const odd_numbers[] = {"0",
+                                   "-1",
+                                   "1e999",
+                                   "-1e999",
+                                   "nan",
+                                   "inf",
+                                   "1e-320",
+                                   "2147483648",
+                                   "-2147483649",
+                                   "4294967296",
+                                   "18446744073709551616",
+                                   "9999999999999999999999",
+                                   "0x7f",
+                                   "1.5",
+                                   "1e9",
+                                   "65536",
+                                   "00",
+                                   "+1",
+                                   ""};
 
 std::size_t place(const std::string& text, Random& random) { return text.empty() ? 0 : random.below(text.size()); }
 
@@ -32,7 +49,20 @@ void replace_number(std::string& text, Random& random) {
 
 /// A binary number that readers of sizes and indices stumble over.
 void replace_binary(std::string& text, Random& random) {
-  static const std::uint64_t odd[] = {0, 1, 0x7f, 0x80, 0xff, 0x7fff, 0xffff, 0x7fffffff, 0x80000000, 0xffffffff, 0x7fffffffffffffff, ~0ull, 0x7ff0000000000000, 0x7ff8000000000000};
+  static const std::uint64_t odd[] = {0,
+                                      1,
+                                      0x7f,
+                                      0x80,
+                                      0xff,
+                                      0x7fff,
+                                      0xffff,
+                                      0x7fffffff,
+                                      0x80000000,
+                                      0xffffffff,
+                                      0x7fffffffffffffff,
+                                      ~0ull,
+                                      0x7ff0000000000000,
+                                      0x7ff8000000000000};
   const std::size_t width = std::size_t{1} << random.below(4);
   if (text.size() < width) return;
   const std::uint64_t value = odd[random.below(std::size(odd))];
@@ -51,9 +81,12 @@ Mutator::Mutator(std::vector<std::string> seeds) : seeds_(std::move(seeds)) {
   for (const auto& seed : seeds_) {
     std::string word;
     for (const char c : seed) {
-      if (std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '$') word += c;
-      else if (word.size() > 1 && word.size() < 40) words.insert(word), word.clear();
-      else word.clear();
+      if (std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '$')
+        word += c;
+      else if (word.size() > 1 && word.size() < 40)
+        words.insert(word), word.clear();
+      else
+        word.clear();
     }
   }
   words_.assign(words.begin(), words.end());
@@ -62,18 +95,38 @@ Mutator::Mutator(std::vector<std::string> seeds) : seeds_(std::move(seeds)) {
 void Mutator::change(std::string& text, Random& random) const {
   const std::size_t at = place(text, random);
   switch (random.below(13)) {
-    case 0: if (!text.empty()) text[at] = static_cast<char>(text[at] ^ (1 << random.below(8))); break;
-    case 1: if (!text.empty()) text[at] = static_cast<char>(random.bits()); break;
-    case 2: text.insert(at, 1 + random.below(8), static_cast<char>(random.bits())); break;
-    case 3: text.erase(at, 1 + random.below(32)); break;
-    case 4: text.insert(at, piece_of(text, random)); break;
-    case 5: text.resize(at); break;
-    case 6: text.insert(at, piece_of(seeds_[random.below(seeds_.size())], random)); break;
-    case 7: if (!words_.empty()) text.insert(at, words_[random.below(words_.size())]); break;
+    case 0:
+      if (!text.empty()) text[at] = static_cast<char>(text[at] ^ (1 << random.below(8)));
+      break;
+    case 1:
+      if (!text.empty()) text[at] = static_cast<char>(random.bits());
+      break;
+    case 2:
+      text.insert(at, 1 + random.below(8), static_cast<char>(random.bits()));
+      break;
+    case 3:
+      text.erase(at, 1 + random.below(32));
+      break;
+    case 4:
+      text.insert(at, piece_of(text, random));
+      break;
+    case 5:
+      text.resize(at);
+      break;
+    case 6:
+      text.insert(at, piece_of(seeds_[random.below(seeds_.size())], random));
+      break;
+    case 7:
+      if (!words_.empty()) text.insert(at, words_[random.below(words_.size())]);
+      break;
     case 8:
     case 9:
-    case 10: replace_number(text, random); break;
-    case 11: replace_binary(text, random); break;
+    case 10:
+      replace_number(text, random);
+      break;
+    case 11:
+      replace_binary(text, random);
+      break;
     default: {
       const std::string piece = piece_of(text, random);
       text.replace(at, piece.size(), piece);

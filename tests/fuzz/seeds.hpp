@@ -12,14 +12,15 @@
 
 namespace gdesp::fuzz {
 
-using Seeds = std::vector<std::pair<std::string, std::string>>;   ///< file name, bytes
+using Seeds = std::vector<std::pair<std::string, std::string>>;  ///< file name, bytes
 
-Seeds raster_seeds(const std::string& folder);      ///< GeoTIFF, plain and compressed
-Seeds mesh_seeds(const std::string& folder);        ///< binary STL and PLY
-Seeds frame_seeds(const std::string& folder);       ///< fluid and grains as VTP; OpenVDB points
+Seeds raster_seeds(const std::string& folder);  ///< GeoTIFF, plain and compressed
+Seeds mesh_seeds(const std::string& folder);    ///< binary STL and PLY
+Seeds frame_seeds(const std::string& folder);   ///< fluid and grains as VTP; OpenVDB points
 Seeds triangle_seeds(const std::string& folder);
-Seeds case_seeds(const std::string& folder);        ///< the files of folder/good.case, which is left there
-Seeds record_seeds(const std::string& folder);      ///< what gdesp-run writes to a pipe; its frames and folder/good.case are left there
+Seeds case_seeds(const std::string& folder);  ///< the files of folder/good.case, which is left there
+Seeds record_seeds(
+    const std::string& folder);  ///< what gdesp-run writes to a pipe; its frames and folder/good.case are left there
 Seeds checkpoint_seeds(const std::string& folder);
 
 constexpr std::uint64_t checkpoint_fingerprint = 1;

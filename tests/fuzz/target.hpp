@@ -8,7 +8,7 @@
 namespace gdesp::fuzz {
 
 struct Target {
-  const char* name;              ///< also the folder of its corpus
+  const char* name;  ///< also the folder of its corpus
   /// Endings of the file the bytes are written to, by the first letter of the seed's name ("a.stl" -> ".stl"): empty for bytes
   /// that no file holds.
   bool needs_file;

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "target.hpp"
-
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -24,6 +22,7 @@
 #include "scene/scene.hpp"
 #include "seeds.hpp"
 #include "support/tank.hpp"
+#include "target.hpp"
 
 namespace gdesp::fuzz {
 namespace {
@@ -51,7 +50,8 @@ void read_override(const std::string& bytes, const std::string& path) {
 
 void read_raster_file(const std::string&, const std::string& path) {
   const geometry::Raster r = geometry::read_raster(path, {});
-  expect(r.field.z.size() == static_cast<std::size_t>(r.field.nx) * r.field.ny && r.field.dx > 0.0 && r.field.dy > 0.0, "the raster has no sound grid");
+  expect(r.field.z.size() == static_cast<std::size_t>(r.field.nx) * r.field.ny && r.field.dx > 0.0 && r.field.dy > 0.0,
+         "the raster has no sound grid");
 }
 
 void read_point_file(const std::string&, const std::string& path) {
@@ -63,7 +63,9 @@ void read_mesh_file(const std::string&, const std::string& path) {
   options.mesh_size = 0.7;
   geometry::TriangleMesh mesh = geometry::read_mesh(path, options);
   for (const auto& t : mesh.triangle) {
-    for (int c = 0; c < 3; ++c) expect(t[c] >= 0 && static_cast<std::size_t>(t[c]) < mesh.vertex.size(), "a triangle names a vertex that is not there");
+    for (int c = 0; c < 3; ++c)
+      expect(t[c] >= 0 && static_cast<std::size_t>(t[c]) < mesh.vertex.size(),
+             "a triangle names a vertex that is not there");
   }
   geometry::check_and_repair(mesh, geometry::MeshPurpose::any);
 }
@@ -71,14 +73,17 @@ void read_mesh_file(const std::string&, const std::string& path) {
 void read_frame_file(const std::string&, const std::string& path) {
   FrameMeta meta;
   const FluidTable fluid = read_fluid_frame(path, {}, &meta);
-  expect(fluid.velocity.empty() || fluid.velocity.size() == fluid.position.size(), "a column has another length than the positions");
+  expect(fluid.velocity.empty() || fluid.velocity.size() == fluid.position.size(),
+         "a column has another length than the positions");
   read_grain_frame(path, {}, &meta);
 }
 
 void read_triangle_file(const std::string&, const std::string& path) {
   const TriangleTable t = read_triangles_vtp(path);
   for (const auto& corner : t.triangle) {
-    for (int c = 0; c < 3; ++c) expect(corner[c] >= 0 && static_cast<std::size_t>(corner[c]) < t.vertex.size(), "a triangle names a vertex that is not there");
+    for (int c = 0; c < 3; ++c)
+      expect(corner[c] >= 0 && static_cast<std::size_t>(corner[c]) < t.vertex.size(),
+             "a triangle names a vertex that is not there");
   }
   read_body_states(path);
 }
@@ -96,7 +101,8 @@ void read_case_folder(const std::string&, const std::string& path) {
 void read_checkpoint(const std::string& bytes, const std::string& path) {
   const std::string run = fs::path(path).parent_path().string() + "/run";
   fs::create_directories(run + "/checkpoints");
-  std::ofstream(run + "/checkpoints/step_000000000001.state", std::ios::binary) << (bytes.size() % 4 ? with_sound_trailer(bytes) : bytes);
+  std::ofstream(run + "/checkpoints/step_000000000001.state", std::ios::binary)
+      << (bytes.size() % 4 ? with_sound_trailer(bytes) : bytes);
   const std::unique_ptr<Simulation> simulation = make_simulation(small_tank(), "cpu");
   tool::CheckpointFiles(run, checkpoint_fingerprint).load_newest(*simulation);
 }
@@ -104,8 +110,12 @@ void read_checkpoint(const std::string& bytes, const std::string& path) {
 /// Paths in the records are taken from the scratch folder, where the seeds' frames and case are.
 void read_record_stream(const std::string& bytes, const std::string& path) {
   fs::current_path(fs::path(path).parent_path());
-  struct Input { std::istringstream text; int line = 0; };
-  const auto in = std::make_shared<Input>(std::istringstream(bytes));   // the source's own thread may still read when this returns
+  struct Input {
+    std::istringstream text;
+    int line = 0;
+  };
+  const auto in =
+      std::make_shared<Input>(std::istringstream(bytes));  // the source's own thread may still read when this returns
   analysis::SourceOptions options;
   options.inputs = {"-"};
   options.next_record = [in] { return cli::read_record(in->text, in->line); };
@@ -121,13 +131,15 @@ void read_run_files(const std::string&, const std::string& path) {
 
 void read_table_file(const std::string&, const std::string& path) {
   const analysis::Table table = analysis::read_table(path);
-  for (const auto& row : table.row) expect(row.size() == table.column.size(), "a row has another length than the header");
+  for (const auto& row : table.row)
+    expect(row.size() == table.column.size(), "a row has another length than the header");
   for (const auto& name : table.column) table.numbers(name);
 }
 
 void read_motion_file(const std::string&, const std::string& path) {
   const PrescribedMotion motion = geometry::read_motion(path);
-  for (std::size_t k = 1; k < motion.time.size(); ++k) expect(motion.time[k] > motion.time[k - 1], "times do not increase");
+  for (std::size_t k = 1; k < motion.time.size(); ++k)
+    expect(motion.time[k] > motion.time[k - 1], "times do not increase");
 }
 
 /// Words split at blanks; what would only print (--help) is not asked for.
@@ -149,20 +161,13 @@ void read_command_line(const std::string& bytes, const std::string&) {
 
 const std::vector<Target>& targets() {
   static const std::vector<Target> all = {
-      {"scene", true, read_scene_file, nullptr},
-      {"override", false, read_override, nullptr},
-      {"command-line", false, read_command_line, nullptr},
-      {"records", false, read_record_stream, record_seeds},
-      {"run-files", true, read_run_files, nullptr},
-      {"table", true, read_table_file, nullptr},
-      {"motion", true, read_motion_file, nullptr},
-      {"points", true, read_point_file, nullptr},
-      {"raster", true, read_raster_file, raster_seeds},
-      {"mesh", true, read_mesh_file, mesh_seeds},
-      {"frame", true, read_frame_file, frame_seeds},
-      {"triangles", true, read_triangle_file, triangle_seeds},
-      {"case", true, read_case_folder, case_seeds},
-      {"checkpoint", true, read_checkpoint, checkpoint_seeds},
+      {"scene", true, read_scene_file, nullptr},           {"override", false, read_override, nullptr},
+      {"command-line", false, read_command_line, nullptr}, {"records", false, read_record_stream, record_seeds},
+      {"run-files", true, read_run_files, nullptr},        {"table", true, read_table_file, nullptr},
+      {"motion", true, read_motion_file, nullptr},         {"points", true, read_point_file, nullptr},
+      {"raster", true, read_raster_file, raster_seeds},    {"mesh", true, read_mesh_file, mesh_seeds},
+      {"frame", true, read_frame_file, frame_seeds},       {"triangles", true, read_triangle_file, triangle_seeds},
+      {"case", true, read_case_folder, case_seeds},        {"checkpoint", true, read_checkpoint, checkpoint_seeds},
   };
   return all;
 }

@@ -73,7 +73,8 @@ struct Maker {
   }
 
   /// Four layers of wall particles on the lattice below the surface of a solid; distance(r) > 0 outside.
-  void solid(const Vec3d& low, const Vec3d& high, const std::function<double(const Vec3d&)>& distance, std::int32_t body = 0) {
+  void solid(const Vec3d& low, const Vec3d& high, const std::function<double(const Vec3d&)>& distance,
+             std::int32_t body = 0) {
     const bool three = c.scene.dimensions == 3;
     const auto first = [&](double a) { return static_cast<long>(std::floor(a / dp)); };
     for (long i = first(low.x); i < first(high.x); ++i)
@@ -113,7 +114,12 @@ struct Maker {
   void block(const Vec3d& low, const Vec3d& high, const Body& body) {
     c.bodies.push_back(body);
     const auto number = static_cast<std::int32_t>(c.bodies.size());
-    solid(low, high, [=](const Vec3d& r) { return std::max({low.x - r.x, r.x - high.x, low.z - r.z, r.z - high.z}); }, number);
+    solid(
+        low, high,
+        [=](const Vec3d& r) {
+          return std::max({low.x - r.x, r.x - high.x, low.z - r.z, r.z - high.z});
+        },
+        number);
     test::add_box(c.walls, number, {low.x, -0.5, low.z}, {high.x, 0.5, high.z});
   }
   void floating(const Vec3d& low, const Vec3d& high, double density) {
@@ -124,7 +130,8 @@ struct Maker {
     const double side = set.get("side", 0.1), width = 0.5, depth = 0.25;
     const double bottom = set.get("sunk", 0) != 0 ? 0.05 : depth - 0.5 * side, left = 0.2;
     tank(width, depth + 0.15);
-    water({0, 0, 0}, {width, 0, depth}, [=](const Vec3d& r) { return r.x < left || r.x > left + side || r.z < bottom || r.z > bottom + side; });
+    water({0, 0, 0}, {width, 0, depth},
+          [=](const Vec3d& r) { return r.x < left || r.x > left + side || r.z < bottom || r.z > bottom + side; });
     floating({left, 0, bottom}, {left + side, 0, bottom + side}, 1000.0 * set.get("ratio", 0.5));
     c.still_water_level = depth;
     end(2.0, 4);
@@ -144,7 +151,8 @@ struct Maker {
     floating({0.3, 0, 0.05}, {0.36, 0, 0.11}, 500.0);
     slide(d);
     for (int k = 0; k < 6; ++k)
-      for (int i = 0; i < 11; ++i) grain({0.008 + i * 1.12 * d + 0.001 * (k % 2), 0, 0.5 * d + k * 1.08 * d}, d, set.get("density", 2650));
+      for (int i = 0; i < 11; ++i)
+        grain({0.008 + i * 1.12 * d + 0.001 * (k % 2), 0, 0.5 * d + k * 1.08 * d}, d, set.get("density", 2650));
     c.still_water_level = 0.2;
     end(0.4, 4);
   }
@@ -226,7 +234,8 @@ struct Maker {
     // The sheet lies on its own lattice, along the slope.
     const Vec3d corner = Vec3d{0, 0, top} + along * 0.2;
     for (int i = 0; i < static_cast<int>(std::lround(0.3 / dp)); ++i)
-      for (int k = 0; k < static_cast<int>(layers); ++k) c.fluid.position.push_back(corner + along * ((i + 0.5) * dp) + up * ((k + 0.5) * dp));
+      for (int k = 0; k < static_cast<int>(layers); ++k)
+        c.fluid.position.push_back(corner + along * ((i + 0.5) * dp) + up * ((k + 0.5) * dp));
     c.fluid.density.assign(c.fluid.position.size(), static_cast<float>(c.scene.fluid.density));
     domain({-5 * dp, -dp, -0.3}, {length, dp, top + 0.3});
     c.scene.numerics.expected_speed = 9.81 * std::sin(angle) * 0.6;
@@ -244,7 +253,8 @@ struct Maker {
     for (std::int32_t i = -4; i < last(2.4 * along.x); ++i) {
       for (std::int32_t k = last(-0.2); k < last(top) + 4; ++k) {
         const double s = dot(lattice.point({i, 0, k}) - Vec3d{0, 0, top}, up);
-        if (std::abs(s) < geometry::fitted_band * dp) band.push_back({{i, 0, k}, static_cast<float>(s), static_cast<Vec3f>(up), 0});
+        if (std::abs(s) < geometry::fitted_band * dp)
+          band.push_back({{i, 0, k}, static_cast<float>(s), static_cast<Vec3f>(up), 0});
       }
     }
     for (const auto& p : geometry::fit_layers(band, {&slope, lattice, {{-1, -1, -1}, {9, 1, 9}}, {}, {}, 0.0})) {
@@ -291,7 +301,8 @@ struct Maker {
     slide(d);
     const int across = static_cast<int>((0.2 - 0.5 * step) / step), high = static_cast<int>(0.06 / step);
     for (int k = 0; k < high; ++k)
-      for (int i = 0; i < across; ++i) grain({(i + 0.52 + 0.5 * (k % 2)) * step, 0, 0.5 * d + k * step * 0.867}, d, 2650);
+      for (int i = 0; i < across; ++i)
+        grain({(i + 0.52 + 0.5 * (k % 2)) * step, 0, 0.5 * d + k * step * 0.867}, d, 2650);
     c.still_water_level = 0.2;
     end(0.3, 3);
   }
@@ -369,10 +380,15 @@ struct Maker {
 
 int main(int argc, char** argv) {
   const std::map<std::string, void (Maker::*)()> kinds{
-      {"dam", &Maker::dam}, {"still", &Maker::still}, {"patch", &Maker::patch}, {"sheet", &Maker::sheet}, {"wet", &Maker::wet}, {"pores", &Maker::pores},
-      {"float", &Maker::float_}, {"mixed", &Maker::mixed}, {"settle", &Maker::settle}, {"heap", &Maker::heap}, {"slope", &Maker::slope}, {"shot", &Maker::shot}};
+      {"dam", &Maker::dam},       {"still", &Maker::still}, {"patch", &Maker::patch},  {"sheet", &Maker::sheet},
+      {"wet", &Maker::wet},       {"pores", &Maker::pores}, {"float", &Maker::float_}, {"mixed", &Maker::mixed},
+      {"settle", &Maker::settle}, {"heap", &Maker::heap},   {"slope", &Maker::slope},  {"shot", &Maker::shot}};
   const auto kind = argc > 2 ? kinds.find(argv[2]) : kinds.end();
-  if (kind == kinds.end()) return std::fprintf(stderr, "atlas_case CASE dam|still|patch|sheet|wet|pores|float|mixed|settle|heap|slope|shot [name=value...]\n"), 2;
+  if (kind == kinds.end())
+    return std::fprintf(
+               stderr,
+               "atlas_case CASE dam|still|patch|sheet|wet|pores|float|mixed|settle|heap|slope|shot [name=value...]\n"),
+           2;
   Settings settings;
   for (int k = 3; k < argc; ++k) {
     const std::string text = argv[k];
@@ -385,7 +401,5 @@ int main(int argc, char** argv) {
     (maker.*kind->second)();
     gdesp::write_case(argv[1], maker.c, true);
     return 0;
-  } catch (const gdesp::Error& e) {
-    return std::fprintf(stderr, "atlas_case: %s\n", e.what()), e.exit_code();
-  }
+  } catch (const gdesp::Error& e) { return std::fprintf(stderr, "atlas_case: %s\n", e.what()), e.exit_code(); }
 }

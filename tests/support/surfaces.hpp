@@ -9,7 +9,8 @@
 namespace gdesp::test {
 
 /// A rectangle a, b, c, d (its front by the right-hand rule) as two triangles.
-inline void add_rectangle(TriangleTable& table, const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d, std::int32_t body = 0) {
+inline void add_rectangle(TriangleTable& table, const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d,
+                          std::int32_t body = 0) {
   const auto base = static_cast<std::int32_t>(table.vertex.size());
   table.vertex.insert(table.vertex.end(), {a, b, c, d});
   table.triangle.push_back({base, base + 1, base + 2});
@@ -19,7 +20,9 @@ inline void add_rectangle(TriangleTable& table, const Vec3d& a, const Vec3d& b, 
 
 /// A closed box, seen from outside.
 inline void add_box(TriangleTable& table, std::int32_t body, const Vec3d& low, const Vec3d& high) {
-  const auto at = [&](int i, int j, int k) { return Vec3d{i ? high.x : low.x, j ? high.y : low.y, k ? high.z : low.z}; };
+  const auto at = [&](int i, int j, int k) {
+    return Vec3d{i ? high.x : low.x, j ? high.y : low.y, k ? high.z : low.z};
+  };
   add_rectangle(table, at(0, 0, 0), at(0, 1, 0), at(1, 1, 0), at(1, 0, 0), body);
   add_rectangle(table, at(0, 0, 1), at(1, 0, 1), at(1, 1, 1), at(0, 1, 1), body);
   add_rectangle(table, at(0, 0, 0), at(1, 0, 0), at(1, 0, 1), at(0, 0, 1), body);

@@ -18,8 +18,8 @@ inline void fill_block(FluidTable& fluid, const Vec3d& low, const Vec3d& high, d
   for (int i = 0; i < nx; ++i)
     for (int j = 0; j < ny; ++j)
       for (int k = 0; k < nz; ++k)
-        fluid.position.push_back({low.x + (i + 0.5) * dp, two_dimensional ? 0.0 : low.y + (j + 0.5) * dp,
-                                  low.z + (k + 0.5) * dp});
+        fluid.position.push_back(
+            {low.x + (i + 0.5) * dp, two_dimensional ? 0.0 : low.y + (j + 0.5) * dp, low.z + (k + 0.5) * dp});
 }
 
 /// Wall particles in three layers around the inside [low, high] of a tank that is open at the top.
@@ -32,8 +32,8 @@ inline void wall_tank(BoundaryTable& walls, const Vec3d& low, const Vec3d& high,
       for (int k = -layers; k < nz; ++k) {
         const bool inside = i >= 0 && i < nx && j >= 0 && j < ny && k >= 0;
         if (inside) continue;
-        walls.position.push_back({low.x + (i + 0.5) * dp, two_dimensional ? 0.0 : low.y + (j + 0.5) * dp,
-                                  low.z + (k + 0.5) * dp});
+        walls.position.push_back(
+            {low.x + (i + 0.5) * dp, two_dimensional ? 0.0 : low.y + (j + 0.5) * dp, low.z + (k + 0.5) * dp});
       }
 }
 
@@ -65,12 +65,16 @@ inline void rest_rows(SimulationInput& input, double depth) {
   }
   for (const Vec3d& r : input.fluid.position) {
     const double A = norm(p.gravity) * (depth - r.z) / (p.sound_speed * p.sound_speed);
-    input.fluid.density.push_back(static_cast<float>(p.reference_density * (1.0 + sph::tait_density(static_cast<float>(A)))));
+    input.fluid.density.push_back(
+        static_cast<float>(p.reference_density * (1.0 + sph::tait_density(static_cast<float>(A)))));
   }
 }
 
 /// What the passes wrote, in the order of ids.
-struct Rates { Vec3d acceleration; double dD = 0.0; };
+struct Rates {
+  Vec3d acceleration;
+  double dD = 0.0;
+};
 inline std::vector<Rates> rates_by_id(const sph::FluidSystem<exec::OpenMP>& fluid) {
   std::vector<Rates> rates(static_cast<std::size_t>(fluid.particles()));
   for (Index s = 0; s < fluid.slots(); ++s) {

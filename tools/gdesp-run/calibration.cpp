@@ -29,7 +29,8 @@ SimulationInput empty_like(const SimulationInput& scene, double size, double mar
   input.time = scene.time;
   input.time.fixed_step = input.time.cfl = 0.0;  // the cost of a step, not its length: it must hold
   input.lower = {-margin, scene.fluid_parameters.dimensions == 2 ? -scene.fluid_parameters.dp : -margin, -margin};
-  input.upper = {size + margin, scene.fluid_parameters.dimensions == 2 ? scene.fluid_parameters.dp : size + margin, size + margin};
+  input.upper = {size + margin, scene.fluid_parameters.dimensions == 2 ? scene.fluid_parameters.dp : size + margin,
+                 size + margin};
   return input;
 }
 
@@ -98,7 +99,8 @@ StepCosts measure_step_costs(const SimulationInput& scene, const std::string& de
   const int side = device == "cpu" ? (plane ? 70 : 18) : (plane ? 500 : 64);
   if (!scene.fluid.position.empty()) {
     const SimulationInput tank = small_tank(scene, side);
-    const double work = static_cast<double>(tank.fluid.position.size()) + wall_share * static_cast<double>(tank.boundary.position.size());
+    const double work = static_cast<double>(tank.fluid.position.size()) +
+                        wall_share * static_cast<double>(tank.boundary.position.size());
     costs.water = seconds_per_step(tank, device, 8) / work;
     costs.wall = wall_share * costs.water;
   }
@@ -108,7 +110,8 @@ StepCosts measure_step_costs(const SimulationInput& scene, const std::string& de
     costs.grain = seconds_per_step(lattice, device, 2) / substeps / static_cast<double>(lattice.grains.position.size());
     if (scene.coupling.enabled && costs.water > 0.0) {
       const float largest = *std::max_element(scene.grains.diameter.begin(), scene.grains.diameter.end());
-      costs.coupling = coupling_share * costs.water * (1.0 + std::pow(static_cast<double>(largest) / p.dp, p.dimensions));
+      costs.coupling =
+          coupling_share * costs.water * (1.0 + std::pow(static_cast<double>(largest) / p.dp, p.dimensions));
     }
   }
   return costs;

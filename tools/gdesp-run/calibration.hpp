@@ -11,10 +11,10 @@ namespace gdesp::tool {
 
 /// s; 0 where the scene has no such thing.
 struct StepCosts {
-  double water = 0.0;      ///< per water particle and step of the fluid
-  double wall = 0.0;       ///< per wall particle beside water and step of the fluid
-  double grain = 0.0;      ///< per grain and step of the grains
-  double coupling = 0.0;   ///< per grain and step of the fluid, while it is in water
+  double water = 0.0;     ///< per water particle and step of the fluid
+  double wall = 0.0;      ///< per wall particle beside water and step of the fluid
+  double grain = 0.0;     ///< per grain and step of the grains
+  double coupling = 0.0;  ///< per grain and step of the fluid, while it is in water
 };
 
 /// Walls and coupling are taken in proportion to water: 0.3 a wall particle (two of its passes are light), and 1.4 a grain
@@ -22,7 +22,9 @@ struct StepCosts {
 StepCosts measure_step_costs(const SimulationInput& scene, const std::string& device);
 
 /// s of wall time for one step of the fluid with `grain_steps` steps of the grains.
-struct StepWork { double water = 0.0, walls = 0.0, grains = 0.0, grain_steps = 1.0; };
+struct StepWork {
+  double water = 0.0, walls = 0.0, grains = 0.0, grain_steps = 1.0;
+};
 double step_seconds(const StepCosts& costs, const StepWork& work);
 
 }  // namespace gdesp::tool

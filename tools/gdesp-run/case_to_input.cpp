@@ -11,14 +11,22 @@
 namespace gdesp::tool {
 namespace {
 
-constexpr double granular_share = 0.7;       // of the speed of free fall
-constexpr double fastest_slide = 100.0;      // m/s
+constexpr double granular_share = 0.7;   // of the speed of free fall
+constexpr double fastest_slide = 100.0;  // m/s
 constexpr double sound_over_speed = 10.0;
-constexpr double rest_over_depth_time = 5.0;  // sqrt(H/g), H the height of the water, that water stays awake undisturbed
-constexpr double unresolved_layer = 0.2;      // dp
+constexpr double rest_over_depth_time =
+    5.0;                                  // sqrt(H/g), H the height of the water, that water stays awake undisturbed
+constexpr double unresolved_layer = 0.2;  // dp
 
-struct Extent { double low = INFINITY, high = -INFINITY, sum = 0.0; std::size_t count = 0;
-  void add(double z) { low = std::min(low, z); high = std::max(high, z); sum += z; ++count; }
+struct Extent {
+  double low = INFINITY, high = -INFINITY, sum = 0.0;
+  std::size_t count = 0;
+  void add(double z) {
+    low = std::min(low, z);
+    high = std::max(high, z);
+    sum += z;
+    ++count;
+  }
   double mean() const { return sum / static_cast<double>(count); }
 };
 
@@ -76,12 +84,14 @@ void consider_motions(const Case& c, ExpectedSpeed& expected) {
 sph::ActivityParameters activity_parameters(const Case& c) {
   sph::ActivityParameters p;
   // Walls beside sleeping water keep no pressure, and a body that moves under its load needs that.
-  p.sleep = c.scene.economy.sleep && std::all_of(c.bodies.begin(), c.bodies.end(), [](const Body& b) { return b.kind == BodyKind::prescribed; });
+  p.sleep = c.scene.economy.sleep &&
+            std::all_of(c.bodies.begin(), c.bodies.end(), [](const Body& b) { return b.kind == BodyKind::prescribed; });
   p.wake_speed = c.scene.economy.wake_speed;
   p.near_walls = c.scene.economy.near_walls;
   if (!c.fluid.position.empty()) {
     const Extent water = extent_of(c.fluid.position);
-    p.rest_time = rest_over_depth_time * std::sqrt((water.high - water.low + c.scene.dp) / std::max(norm(c.scene.gravity), 1.0e-9));
+    p.rest_time = rest_over_depth_time *
+                  std::sqrt((water.high - water.low + c.scene.dp) / std::max(norm(c.scene.gravity), 1.0e-9));
   }
   return p;
 }
@@ -121,7 +131,8 @@ void set_density(FluidTable& fluid, const sph::FluidParameters& p) {
   if (fluid.pressure.empty() || !fluid.density.empty()) return;
   const double stiffness = p.reference_density * p.sound_speed * p.sound_speed;
   for (const float pressure : fluid.pressure)
-    fluid.density.push_back(static_cast<float>(p.reference_density * (1.0 + sph::tait_density(static_cast<float>(pressure / stiffness)))));
+    fluid.density.push_back(
+        static_cast<float>(p.reference_density * (1.0 + sph::tait_density(static_cast<float>(pressure / stiffness)))));
 }
 
 CouplingParameters coupling_parameters(const Scene& s) {
@@ -182,11 +193,13 @@ ExpectedSpeed expected_speed(const Case& c) {
   consider_motions(c, expected);
   keep_larger(expected, largest(c.fluid.velocity), "velocity of the water at the start");
   keep_larger(expected, largest(c.grains.velocity), "velocity of the grains at the start");
-  for (const Slide& slide : c.scene.slides) keep_larger(expected, norm(slide.velocity), "velocity of the slide at the start");
+  for (const Slide& slide : c.scene.slides)
+    keep_larger(expected, norm(slide.velocity), "velocity of the slide at the start");
   keep_larger(expected, std::sqrt(gravity * c.scene.dp), "fall over one spacing");
   if (!(expected.speed > 0.0))
-    throw Error(ErrorKind::input, "no speed can be expected (no gravity, nothing moves): give numerics.expected_speed "
-                                  "or numerics.sound_speed (m/s)");
+    throw Error(ErrorKind::input,
+                "no speed can be expected (no gravity, nothing moves): give numerics.expected_speed "
+                "or numerics.sound_speed (m/s)");
   return expected;
 }
 

@@ -10,7 +10,10 @@
 namespace gdesp::tool {
 
 /// The largest speed that is expected, m/s, and what it comes from.
-struct ExpectedSpeed { double speed = 0.0; std::string source; };
+struct ExpectedSpeed {
+  double speed = 0.0;
+  std::string source;
+};
 
 /// numerics.expected_speed when it is given; else the largest of
 ///   water: sqrt(2 g H), H the height between its lowest and highest particle (a column that falls freely);

@@ -94,7 +94,8 @@ std::string damage(std::ifstream& file, std::uintmax_t size) {
   Trailer trailer{};
   file.read(reinterpret_cast<char*>(&trailer), sizeof trailer);
   if (!file) return "cannot be read";
-  if (std::memcmp(trailer.mark, file_mark, sizeof file_mark) != 0 || trailer.size != size - sizeof(Trailer)) return "is cut short";
+  if (std::memcmp(trailer.mark, file_mark, sizeof file_mark) != 0 || trailer.size != size - sizeof(Trailer))
+    return "is cut short";
   return trailer.checksum == checksum.value() ? "" : "is damaged (its checksum does not fit)";
 }
 
@@ -107,7 +108,8 @@ template <class T>
 T get(std::istream& in) {
   static_assert(std::is_trivially_copyable_v<T>);
   T value{};
-  if (!in.read(reinterpret_cast<char*>(&value), sizeof value)) throw Error(ErrorKind::input, "a checkpoint ends before what it should hold");
+  if (!in.read(reinterpret_cast<char*>(&value), sizeof value))
+    throw Error(ErrorKind::input, "a checkpoint ends before what it should hold");
   return value;
 }
 
@@ -129,7 +131,9 @@ void put_good_states(std::ostream& out, const std::deque<GoodState>& good) {
 /// The checksum has been found right; a file made to fit it may still state any sizes.
 std::size_t get_size(std::istream& in, std::size_t most) {
   const auto size = get<std::uint64_t>(in);
-  if (size > most) throw Error(ErrorKind::input, "a checkpoint states " + std::to_string(size) + " where at most " + std::to_string(most) + " can be");
+  if (size > most)
+    throw Error(ErrorKind::input,
+                "a checkpoint states " + std::to_string(size) + " where at most " + std::to_string(most) + " can be");
   return static_cast<std::size_t>(size);
 }
 
@@ -199,8 +203,9 @@ std::optional<Checkpoint> CheckpointFiles::load_newest(Simulation& simulation) {
     Header header{};
     file.read(reinterpret_cast<char*>(&header), sizeof header);
     if (std::memcmp(header.mark, file_mark, sizeof file_mark) != 0 || header.fingerprint != fingerprint_)
-      throw Error(ErrorKind::input, path.string() + ": was written for another case, or with other parameters (--set, "
-                                                    "--preset); give those of the interrupted run, or --force to start anew");
+      throw Error(ErrorKind::input, path.string() +
+                                        ": was written for another case, or with other parameters (--set, "
+                                        "--preset); give those of the interrupted run, or --force to start anew");
     simulation.load(file);
     const auto watch = get<Watch>(file);
     return Checkpoint{path.string(), header.step, header.time, header.wall_seconds, watch, get_good_states(file)};

@@ -15,8 +15,8 @@ namespace gdesp::tool {
 struct Checkpoint {
   std::string path;
   std::int64_t step = 0;
-  double time = 0.0;           ///< s
-  double wall_seconds = 0.0;   ///< s, spent up to here
+  double time = 0.0;          ///< s
+  double wall_seconds = 0.0;  ///< s, spent up to here
   Watch watch;
   std::deque<GoodState> good;  ///< of the run when it wrote the checkpoint; none when they are too large for it
 };

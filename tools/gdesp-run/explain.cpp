@@ -14,7 +14,10 @@ namespace {
 constexpr int most_steps = 20;
 constexpr double longest_trial = 20.0;  // s of wall time
 
-struct Trial { int steps = 0; double seconds = 0.0, simulated = 0.0; };
+struct Trial {
+  int steps = 0;
+  double seconds = 0.0, simulated = 0.0;
+};
 
 /// The first step is not counted: it touches the memory for the first time.
 Trial take_steps(Simulation& simulation, double end) {
@@ -41,14 +44,17 @@ int explain(RunOptions options) {
   start(session);
   const Trial trial = take_steps(*session.simulation, session.times.end);
   if (cli::interrupted()) return 130;
-  std::cout << "memory            " << memory_text(static_cast<double>(exec::peak_allocated_bytes())) << " taken by the solver\n";
+  std::cout << "memory            " << memory_text(static_cast<double>(exec::peak_allocated_bytes()))
+            << " taken by the solver\n";
   if (trial.steps > 0 && trial.simulated > 0.0) {
     const double steps = session.times.end / trial.simulated * trial.steps;
     const double seconds = steps * trial.seconds / trial.steps;
-    std::cout << "trial             " << trial.steps << " steps of " << number_text(trial.simulated / trial.steps, 3) << " s ("
-              << session.simulation->limited_by() << "), " << number_text(trial.seconds / trial.steps * 1e3, 3) << " ms each\n"
+    std::cout << "trial             " << trial.steps << " steps of " << number_text(trial.simulated / trial.steps, 3)
+              << " s (" << session.simulation->limited_by() << "), "
+              << number_text(trial.seconds / trial.steps * 1e3, 3) << " ms each\n"
               << "expected          " << number_text(steps, 2) << " steps, " << duration_text(seconds) << "; score "
-              << number_text(static_cast<double>(session.summary.moving_particles) * session.times.end / seconds, 3) << "\n";
+              << number_text(static_cast<double>(session.summary.moving_particles) * session.times.end / seconds, 3)
+              << "\n";
   }
   return 0;
 }

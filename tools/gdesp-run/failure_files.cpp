@@ -19,10 +19,13 @@ bool finite(const Vec3d& v) { return std::isfinite(v.x) && std::isfinite(v.y) &&
 bool finite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 bool finite(float v) { return std::isfinite(v); }
 template <class T>
-bool finite(const std::vector<T>& column, std::size_t k) { return column.empty() || finite(column[k]); }
+bool finite(const std::vector<T>& column, std::size_t k) {
+  return column.empty() || finite(column[k]);
+}
 
 bool finite_row(const FluidTable& t, std::size_t k) {
-  return finite(t.position, k) && finite(t.velocity, k) && finite(t.density, k) && finite(t.pressure, k) && finite(t.porosity, k);
+  return finite(t.position, k) && finite(t.velocity, k) && finite(t.density, k) && finite(t.pressure, k) &&
+         finite(t.porosity, k);
 }
 bool finite_row(const GrainTable& t, std::size_t k) {
   return finite(t.position, k) && finite(t.velocity, k) && finite(t.angular_velocity, k);
@@ -61,8 +64,10 @@ void only_finite(Table& table, ordered_json& report) {
   std::vector<std::size_t> rows;
   ordered_json ids = ordered_json::array();
   for (std::size_t k = 0; k < table.position.size(); ++k) {
-    if (finite_row(table, k)) rows.push_back(k);
-    else if (ids.size() < most_ids) ids.push_back(table.id[k]);
+    if (finite_row(table, k))
+      rows.push_back(k);
+    else if (ids.size() < most_ids)
+      ids.push_back(table.id[k]);
   }
   report["particles"] = table.position.size();
   report["not_finite"] = table.position.size() - rows.size();
@@ -79,7 +84,8 @@ ordered_json write_failure_state(const std::string& run_folder, const std::strin
   fs::create_directories(folder, trouble);
   if (trouble) throw Error(ErrorKind::resource, folder + ": cannot be made: " + trouble.message());
   ordered_json report{{"t", frame.time}, {"step", frame.step}};
-  const std::vector<VtpArray> field{{"time", ScalarType::float64, 1, &frame.time, 1}, {"step", ScalarType::int64, 1, &frame.step, 1}};
+  const std::vector<VtpArray> field{{"time", ScalarType::float64, 1, &frame.time, 1},
+                                    {"step", ScalarType::int64, 1, &frame.step, 1}};
   if (!frame.fluid.position.empty()) {
     only_finite(frame.fluid, report["fluid"]);
     report["fluid"]["path"] = folder + "/" + name + "_fluid.vtp";

@@ -10,21 +10,26 @@ namespace {
 
 using Cause = Trouble::Cause;
 
-const char* const water_remedy = "numerics.sound_speed (or numerics.expected_speed) is too low for this flow, or the time step "
-                                 "too long (numerics.cfl, numerics.time_step)";
-const char* const step_remedy = "try a smaller numerics.cfl (or numerics.time_step; with grains numerics.grain_time_step_share), "
-                                "and look at the start: particles that overlap push each other apart at any speed";
-const char* const overlap_remedy = "the grains are too soft for their load (contact.youngs_modulus or contact.stiffness), or "
-                                   "overlap at the start";
-const char* const wall_remedy = "the wall has a hole or is thinner than resolution.dp resolves, or the time step is too long "
-                                "(numerics.cfl)";
+const char* const water_remedy =
+    "numerics.sound_speed (or numerics.expected_speed) is too low for this flow, or the time step "
+    "too long (numerics.cfl, numerics.time_step)";
+const char* const step_remedy =
+    "try a smaller numerics.cfl (or numerics.time_step; with grains numerics.grain_time_step_share), "
+    "and look at the start: particles that overlap push each other apart at any speed";
+const char* const overlap_remedy =
+    "the grains are too soft for their load (contact.youngs_modulus or contact.stiffness), or "
+    "overlap at the start";
+const char* const wall_remedy =
+    "the wall has a hole or is thinner than resolution.dp resolves, or the time step is too long "
+    "(numerics.cfl)";
 
-constexpr std::int64_t least_steps = 50;   // between two looks at the energy
+constexpr std::int64_t least_steps = 50;  // between two looks at the energy
 
 std::string percent(double share) { return number_text(100.0 * share, 3) + " %"; }
 
 std::string mach_words(double speed, double mach, double limit) {
-  return "the water reaches " + number_text(speed) + " m/s, Mach " + number_text(mach, 3) + " (limit " + number_text(limit) + ")";
+  return "the water reaches " + number_text(speed) + " m/s, Mach " + number_text(mach, 3) + " (limit " +
+         number_text(limit) + ")";
 }
 
 std::string density_words(double error, double limit) {
@@ -72,17 +77,18 @@ double EnergyWatch::rise(const Diagnostics& d) {
 }
 
 std::string Guard::mach_text(const Diagnostics& d) {
-  return moment_text(d.step, d.time) + mach_words(d.largest_speed, d.mach, mach_limit) + ", meant to stay below 0.1 or so: " +
-         water_remedy;
+  return moment_text(d.step, d.time) + mach_words(d.largest_speed, d.mach, mach_limit) +
+         ", meant to stay below 0.1 or so: " + water_remedy;
 }
 
 std::string Guard::density_text(const Diagnostics& d) {
-  return moment_text(d.step, d.time) + density_words(d.largest_density_error, density_limit) + ", meant: about 1 %: " + water_remedy;
+  return moment_text(d.step, d.time) + density_words(d.largest_density_error, density_limit) +
+         ", meant: about 1 %: " + water_remedy;
 }
 
 std::string Guard::overlap_text(const Diagnostics& d) {
-  return moment_text(d.step, d.time) + "grains overlap by " + percent(d.largest_overlap) + " of their diameter (limit " +
-         percent(overlap_limit) + "), meant: below 1 %: " + overlap_remedy;
+  return moment_text(d.step, d.time) + "grains overlap by " + percent(d.largest_overlap) +
+         " of their diameter (limit " + percent(overlap_limit) + "), meant: below 1 %: " + overlap_remedy;
 }
 
 std::string Guard::in_wall_text(const Diagnostics& d) {
@@ -96,12 +102,14 @@ std::string Guard::energy_text(const Diagnostics& d, double rise) {
 }
 
 std::string Guard::far_lake_text(const Diagnostics& d) {
-  return moment_text(d.step, d.time) + "the far lake rises by " + percent(d.far_lake_highest) + " of its depth (limit " + percent(far_lake_warning) +
+  return moment_text(d.step, d.time) + "the far lake rises by " + percent(d.far_lake_highest) +
+         " of its depth (limit " + percent(far_lake_warning) +
          "): such a wave would break, and columns do not: more of the lake has to be particles";
 }
 
 std::string Guard::lost_text(const Diagnostics& d) {
-  return moment_text(d.step, d.time) + std::to_string(d.lost_fluid) + " fluid particles and " + std::to_string(d.lost_grains) +
+  return moment_text(d.step, d.time) + std::to_string(d.lost_fluid) + " fluid particles and " +
+         std::to_string(d.lost_grains) +
          " grains have left the domain; log.ndjson keeps the count (a larger [domain] keeps the particles)";
 }
 
@@ -117,8 +125,10 @@ std::optional<Trouble> Guard::after_step(const Simulation& simulation) const {
   if (s.time_step < step_limit * s.acoustic_step) {
     const std::string bound = simulation.limited_by();
     if (bound == "force" || bound == "sound" || bound == "viscosity")
-      return now(Cause::step_collapse, "the time step has fallen to " + number_text(s.time_step, 3) + " s, less than " +
-                                           number_text(step_limit) + " of what sound allows, bound by " + bound, step_remedy);
+      return now(Cause::step_collapse,
+                 "the time step has fallen to " + number_text(s.time_step, 3) + " s, less than " +
+                     number_text(step_limit) + " of what sound allows, bound by " + bound,
+                 step_remedy);
   }
   return std::nullopt;
 }
@@ -131,14 +141,20 @@ std::optional<Trouble> Guard::past_a_limit(const Diagnostics& d, double rise) {
   if (!(d.largest_density_error <= density_limit))
     return now(Cause::density, density_words(d.largest_density_error, density_limit), water_remedy);
   if (!(d.largest_overlap <= overlap_limit))
-    return now(Cause::overlap, "grains overlap by " + percent(d.largest_overlap) + " of their diameter (limit " +
-                                   percent(overlap_limit) + ")", overlap_remedy);
+    return now(
+        Cause::overlap,
+        "grains overlap by " + percent(d.largest_overlap) + " of their diameter (limit " + percent(overlap_limit) + ")",
+        overlap_remedy);
   if (!(rise <= energy_limit))
-    return now(Cause::energy, "energy has risen by " + percent(rise) + " of what there was to spend (limit " +
-                                  percent(energy_limit) + "), and nothing gave it", step_remedy);
+    return now(Cause::energy,
+               "energy has risen by " + percent(rise) + " of what there was to spend (limit " + percent(energy_limit) +
+                   "), and nothing gave it",
+               step_remedy);
   if (!(d.deepest_in_wall <= in_wall_limit)) {
-    Trouble t = now(Cause::in_wall, "water lies " + number_text(d.deepest_in_wall, 3) + " particle spacings inside a wall (limit " +
-                                        number_text(in_wall_limit) + ")", wall_remedy);
+    Trouble t = now(Cause::in_wall,
+                    "water lies " + number_text(d.deepest_in_wall, 3) + " particle spacings inside a wall (limit " +
+                        number_text(in_wall_limit) + ")",
+                    wall_remedy);
     t.id = d.deepest_in_wall_id;
     return t;
   }

@@ -15,8 +15,8 @@ namespace gdesp::tool {
 struct Trouble {
   enum class Cause { not_finite, mach, density, step_collapse, energy, overlap, in_wall, all_lost };
   Cause cause = Cause::not_finite;
-  std::string what;                ///< with value and limit
-  std::string remedy;              ///< what to change
+  std::string what;    ///< with value and limit
+  std::string remedy;  ///< what to change
   std::int64_t step = 0;
   double time = 0.0;               ///< s
   std::uint32_t id = 0xffffffffu;  ///< of the particle, where the simulation knows it
@@ -38,26 +38,27 @@ class EnergyWatch {
   double rise(const Diagnostics& d);
 
  private:
-  double spacing_energy_ = 0.0, least_ = std::numeric_limits<double>::infinity(), start_ = 0.0, highest_potential_ = 0.0, freed_ = 0.0;
+  double spacing_energy_ = 0.0, least_ = std::numeric_limits<double>::infinity(), start_ = 0.0,
+         highest_potential_ = 0.0, freed_ = 0.0;
   double before_ = 0.0, rise_ = 0.0;
   std::int64_t lost_ = -1, step_ = 0;
 };
 
 struct GuardSetup {
-  bool watches_energy = false;     ///< no body but far lakes does work, no period along gravity
-  double spacing_energy = 0.0;     ///< m2/s2, g dp
+  bool watches_energy = false;  ///< no body but far lakes does work, no period along gravity
+  double spacing_energy = 0.0;  ///< m2/s2, g dp
 };
 
 class Guard {
  public:
   // Warned of once past the first, stopped past the second.
   static constexpr double mach_warning = 0.2, mach_limit = 1.0;
-  static constexpr double density_warning = 0.1, density_limit = 0.5;    ///< of the reference density
-  static constexpr double overlap_warning = 0.01, overlap_limit = 0.3;   ///< of a diameter
-  static constexpr double in_wall_warning = 1.0, in_wall_limit = 2.0;    ///< of a particle spacing
+  static constexpr double density_warning = 0.1, density_limit = 0.5;   ///< of the reference density
+  static constexpr double overlap_warning = 0.01, overlap_limit = 0.3;  ///< of a diameter
+  static constexpr double in_wall_warning = 1.0, in_wall_limit = 2.0;   ///< of a particle spacing
   static constexpr double energy_warning = 0.05, energy_limit = 0.5;    ///< of what there was to spend
-  static constexpr double far_lake_warning = 0.6;                        ///< of its depth
-  static constexpr double step_limit = 1.0e-3;                           ///< of the acoustic step
+  static constexpr double far_lake_warning = 0.6;                       ///< of its depth
+  static constexpr double step_limit = 1.0e-3;                          ///< of the acoustic step
 
   Guard() = default;
   explicit Guard(const GuardSetup& setup) : setup_(setup), energy_(setup.spacing_energy) {}
@@ -95,7 +96,10 @@ class Guard {
     if (!told) warn(text);
     told = true;
   }
-  struct Told { bool mach = false, density = false, overlap = false, in_wall = false, energy = false, far_lake = false, lost = false; };
+  struct Told {
+    bool mach = false, density = false, overlap = false, in_wall = false, energy = false, far_lake = false,
+         lost = false;
+  };
   GuardSetup setup_;
   EnergyWatch energy_;
   Told told_;

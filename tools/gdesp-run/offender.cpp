@@ -13,8 +13,11 @@ namespace {
 
 using Cause = Trouble::Cause;
 
-double speed(const Vec3f& v) { return std::sqrt(static_cast<double>(v.x) * static_cast<double>(v.x) + static_cast<double>(v.y) * static_cast<double>(v.y) +
-                                                static_cast<double>(v.z) * static_cast<double>(v.z)); }
+double speed(const Vec3f& v) {
+  return std::sqrt(static_cast<double>(v.x) * static_cast<double>(v.x) +
+                   static_cast<double>(v.y) * static_cast<double>(v.y) +
+                   static_cast<double>(v.z) * static_cast<double>(v.z));
+}
 
 std::string speed_text(double v) { return std::isfinite(v) ? number_text(v) + " m/s" : "a speed that is no number"; }
 
@@ -93,8 +96,9 @@ std::optional<Offender> deepest_overlap(const GrainTable& grains) {
     }
   }
   if (most <= 0.0) return fastest(grains, true);  // it was a wall, or is over
-  return row_of(grains, first, true, "which overlaps grain " + std::to_string(grains.id[second]) + " by " +
-                                         number_text(100.0 * most, 3) + " % of their diameter");
+  return row_of(grains, first, true,
+                "which overlaps grain " + std::to_string(grains.id[second]) + " by " + number_text(100.0 * most, 3) +
+                    " % of their diameter");
 }
 
 template <class Table>
@@ -108,11 +112,15 @@ std::optional<Vec3d> place_in(const Table& table, std::uint32_t id) {
 
 std::optional<Offender> find_offender(Simulation& simulation, const Trouble& trouble, double reference_density) {
   switch (trouble.cause) {
-    case Cause::all_lost: return std::nullopt;
+    case Cause::all_lost:
+      return std::nullopt;
     case Cause::mach:
-    case Cause::step_collapse: return fastest(simulation.fluid(), false);
-    case Cause::density: return densest(simulation.fluid(), reference_density);
-    case Cause::overlap: return deepest_overlap(simulation.grains());
+    case Cause::step_collapse:
+      return fastest(simulation.fluid(), false);
+    case Cause::density:
+      return densest(simulation.fluid(), reference_density);
+    case Cause::overlap:
+      return deepest_overlap(simulation.grains());
     case Cause::in_wall: {
       Offender o;
       o.id = trouble.id;
@@ -121,7 +129,8 @@ std::optional<Offender> find_offender(Simulation& simulation, const Trouble& tro
       o.place = place.value_or(Vec3d{});
       return o;
     }
-    default: return fastest_of_all(simulation);
+    default:
+      return fastest_of_all(simulation);
   }
 }
 

@@ -12,9 +12,9 @@ namespace gdesp::tool {
 struct Offender {
   bool is_grain = false;
   std::uint32_t id = 0;
-  std::string value;               ///< what is wrong with it, with units
+  std::string value;  ///< what is wrong with it, with units
   bool has_place = false;
-  Vec3d place;                     ///< m, case coordinates
+  Vec3d place;  ///< m, case coordinates
 };
 
 /// The particle that shows the trouble most; nullopt when none can be named.

@@ -22,7 +22,8 @@ const char* const usage =
     "gdesp-run CASE [-o RUN] [options]\n"
     "Simulates a case that mesh2particles has made: grains (discrete elements) and water (smoothed particles).\n"
     "CASE is a folder, or - for the record of mesh2particles on standard input. Frames, log and checkpoints go into\n"
-    "the folder RUN (default: the case's name with .run, in the current folder); a record of each frame goes to stdout.\n";
+    "the folder RUN (default: the case's name with .run, in the current folder); a record of each frame goes to "
+    "stdout.\n";
 
 const char* const example =
     "Examples:\n"
@@ -38,7 +39,8 @@ po::options_description own_options() {
   o.add_options()("output,o", po::value<std::string>()->value_name("RUN"), "folder of the run");
   o.add_options()("device", po::value<std::string>()->value_name("auto|cpu|cuda|cuda:N")->default_value("auto"),
                   "auto takes the GPU when there is one");
-  o.add_options()("threads", po::value<int>()->value_name("N")->default_value(0, "OMP_NUM_THREADS, else all cores"), "threads of the processor");
+  o.add_options()("threads", po::value<int>()->value_name("N")->default_value(0, "OMP_NUM_THREADS, else all cores"),
+                  "threads of the processor");
   o.add_options()("t-end", po::value<double>()->value_name("S"), "simulated time (default: time.end of the scene)");
   o.add_options()("preset", po::value<std::string>()->value_name("NAME"), "numerics.preset: accurate or paper");
   o.add_options()("set", po::value<std::vector<std::string>>()->value_name("KEY=VALUE"),
@@ -50,7 +52,8 @@ po::options_description own_options() {
   o.add_options()("resume", "goes on from the newest sound checkpoint in RUN");
   o.add_options()("checkpoint-every", po::value<double>()->value_name("S")->default_value(0.0, "600"),
                   "wall time between checkpoints; an interrupted run always writes one");
-  o.add_options()("explain", "prints models, counts, limits, memory and expected wall time; runs nothing, writes nothing");
+  o.add_options()("explain",
+                  "prints models, counts, limits, memory and expected wall time; runs nothing, writes nothing");
   o.add_options()("profile", "measures the loops and prints their shares");
   o.add_options()("force", "replaces an earlier run in RUN");
   return o;
@@ -74,7 +77,8 @@ std::string version_details() {
 double positive_seconds(const po::variables_map& vm, const char* name) {
   const double value = vm[name].as<double>();
   if (std::isfinite(value) && value > 0.0) return value;
-  throw Error(ErrorKind::usage, std::string("--") + name + " " + std::to_string(value) + ": a time above 0 s is needed");
+  throw Error(ErrorKind::usage,
+              std::string("--") + name + " " + std::to_string(value) + ": a time above 0 s is needed");
 }
 
 RunOptions collect(const po::variables_map& vm) {
@@ -83,11 +87,14 @@ RunOptions collect(const po::variables_map& vm) {
   if (vm.count("output")) o.run_folder = vm["output"].as<std::string>();
   o.device = vm["device"].as<std::string>();
   o.threads = vm["threads"].as<int>();
-  if (o.threads < 0) throw Error(ErrorKind::usage, "--threads " + std::to_string(o.threads) + ": 0 (OMP_NUM_THREADS, else all cores) or more is needed");
+  if (o.threads < 0)
+    throw Error(ErrorKind::usage,
+                "--threads " + std::to_string(o.threads) + ": 0 (OMP_NUM_THREADS, else all cores) or more is needed");
   if (vm.count("t-end")) o.t_end = positive_seconds(vm, "t-end");
   if (vm.count("preset")) o.overrides.push_back({"numerics.preset", vm["preset"].as<std::string>()});
   if (vm.count("set"))
-    for (const std::string& text : vm["set"].as<std::vector<std::string>>()) o.overrides.push_back(cli::parse_override(text));
+    for (const std::string& text : vm["set"].as<std::vector<std::string>>())
+      o.overrides.push_back(cli::parse_override(text));
   if (vm.count("accuracy")) o.accuracy = parse_accuracy(vm["accuracy"].as<std::string>());
   if (vm.count("budget")) o.budget = parse_duration(vm["budget"].as<std::string>());
   o.checkpoint_every = vm["checkpoint-every"].defaulted() ? 600.0 : positive_seconds(vm, "checkpoint-every");
@@ -95,9 +102,11 @@ RunOptions collect(const po::variables_map& vm) {
   o.explain = vm.count("explain") > 0;
   o.profile = vm.count("profile") > 0;
   o.force = vm.count("force") > 0;
-  if (o.resume && o.force) throw Error(ErrorKind::usage, "--resume and --force contradict each other: go on, or start anew?");
+  if (o.resume && o.force)
+    throw Error(ErrorKind::usage, "--resume and --force contradict each other: go on, or start anew?");
   if ((o.accuracy > 0.0 || o.budget > 0.0) && (o.resume || o.explain))
-    throw Error(ErrorKind::usage, "--accuracy and --budget choose a case to run: neither --resume nor --explain goes with them");
+    throw Error(ErrorKind::usage,
+                "--accuracy and --budget choose a case to run: neither --resume nor --explain goes with them");
   return o;
 }
 
@@ -111,11 +120,14 @@ std::string case_from_stdin() {
       cli::write_record(*record);
       continue;
     }
-    if (path != record->end() && path->is_string() && !path->get<std::string>().empty()) return path->get<std::string>();
-    throw Error(ErrorKind::input, "standard input, line " + std::to_string(line_number) + ": a case record without \"path\"");
+    if (path != record->end() && path->is_string() && !path->get<std::string>().empty())
+      return path->get<std::string>();
+    throw Error(ErrorKind::input,
+                "standard input, line " + std::to_string(line_number) + ": a case record without \"path\"");
   }
   if (cli::interrupted()) return {};
-  throw Error(ErrorKind::input, "standard input ended without a case record (mesh2particles writes one when it has succeeded)");
+  throw Error(ErrorKind::input,
+              "standard input ended without a case record (mesh2particles writes one when it has succeeded)");
 }
 
 std::string absolute(const std::string& path) {

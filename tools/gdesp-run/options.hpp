@@ -11,17 +11,17 @@
 namespace gdesp::tool {
 
 struct RunOptions {
-  std::string case_path;                ///< folder; "-": the next case record on standard input
-  std::string run_folder;               ///< absolute; empty until the case is known
+  std::string case_path;   ///< folder; "-": the next case record on standard input
+  std::string run_folder;  ///< absolute; empty until the case is known
   std::string device = "auto";
-  int threads = 0;                      ///< 0: OMP_NUM_THREADS, else all cores
-  std::optional<double> t_end;          ///< s; default: the scene's
+  int threads = 0;                        ///< 0: OMP_NUM_THREADS, else all cores
+  std::optional<double> t_end;            ///< s; default: the scene's
   std::optional<double> output_interval;  ///< s; set when a run goes on: that of its start
-  std::vector<Override> overrides;      ///< --preset and --set, in this order
-  double accuracy = 0.0, budget = 0.0;  ///< targets (target.hpp): share of the run-up, s of wall time; 0: none
-  double checkpoint_every = 0.0;        ///< s of wall time; 0: only when interrupted
+  std::vector<Override> overrides;        ///< --preset and --set, in this order
+  double accuracy = 0.0, budget = 0.0;    ///< targets (target.hpp): share of the run-up, s of wall time; 0: none
+  double checkpoint_every = 0.0;          ///< s of wall time; 0: only when interrupted
   bool resume = false, explain = false, profile = false, force = false;
-  std::vector<std::string> arguments;   ///< as typed
+  std::vector<std::string> arguments;  ///< as typed
 };
 
 /// Parses and checks. nullopt when --help or --version has been answered. Throws Error(usage).

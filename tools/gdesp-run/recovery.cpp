@@ -42,7 +42,9 @@ class MemoryInput : public std::streambuf {
   }
 };
 
-bool outran_its_sound(Trouble::Cause cause) { return cause == Trouble::Cause::mach || cause == Trouble::Cause::density; }
+bool outran_its_sound(Trouble::Cause cause) {
+  return cause == Trouble::Cause::mach || cause == Trouble::Cause::density;
+}
 
 }  // namespace
 
@@ -78,7 +80,8 @@ void Recovery::keep(Simulation& simulation, const Guard& guard) {
   while (!kept_.empty() && size * static_cast<double>(kept_.size()) > memory_) kept_.pop_front();
   if (kept_.empty()) {
     memory_ = 0.0;
-    cli::warning("a good state takes " + memory_text(size) + ", more than may be used for it: trouble will end the run instead of being gone back from");
+    cli::warning("a good state takes " + memory_text(size) +
+                 ", more than may be used for it: trouble will end the run instead of being gone back from");
   }
 }
 
@@ -105,10 +108,19 @@ nlohmann::ordered_json Recovery::go_back(Simulation& simulation, Guard& guard, c
   load(from, simulation);
   guard = from.guard;
   step_factor_ *= 0.5;
-  simulation.set_caution(step_factor_, outran_its_sound(trouble.cause) ? sound_factor * sound : std::max(sound, simulation.sound_speed()));
+  simulation.set_caution(
+      step_factor_, outran_its_sound(trouble.cause) ? sound_factor * sound : std::max(sound, simulation.sound_speed()));
   clear_after_ = trouble.time + (trouble.time - from.time);
-  return {{"t", from.time}, {"step", from.step}, {"event", "recovery"}, {"recovery", recoveries_}, {"trouble_t", trouble.time}, {"trouble_step", trouble.step},
-          {"cause", trouble.what}, {"try", tries_}, {"step_factor", step_factor_}, {"sound_speed", simulation.sound_speed()}};
+  return {{"t", from.time},
+          {"step", from.step},
+          {"event", "recovery"},
+          {"recovery", recoveries_},
+          {"trouble_t", trouble.time},
+          {"trouble_step", trouble.step},
+          {"cause", trouble.what},
+          {"try", tries_},
+          {"step_factor", step_factor_},
+          {"sound_speed", simulation.sound_speed()}};
 }
 
 void Recovery::restore_newest(Simulation& simulation) {
@@ -119,8 +131,9 @@ std::string Recovery::tries_text(const Simulation& simulation) const {
   if (recoveries_ == 0) return has_state() ? "" : " (no good state was held to go back to)";
   const std::string first = kept_.empty() ? "" : " from t = " + number_text(kept_.front().time, 6) + " s on,";
   return "; " + std::to_string(tries_) + (tries_ == 1 ? " try" : " tries") + first + " with steps down to " +
-         number_text(step_factor_, 3) + " of their size and a sound speed of up to " + number_text(simulation.sound_speed()) +
-         " m/s did not come through" + (recoveries_ > tries_ ? " (" + std::to_string(recoveries_) + " recoveries in all)" : "");
+         number_text(step_factor_, 3) + " of their size and a sound speed of up to " +
+         number_text(simulation.sound_speed()) + " m/s did not come through" +
+         (recoveries_ > tries_ ? " (" + std::to_string(recoveries_) + " recoveries in all)" : "");
 }
 
 }  // namespace gdesp::tool

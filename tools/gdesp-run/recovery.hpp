@@ -16,7 +16,7 @@ struct GoodState {
   std::vector<char> bytes;
   Guard guard;
   std::int64_t step = 0;
-  double time = 0.0;               ///< s
+  double time = 0.0;  ///< s
 };
 
 /// What a checkpoint keeps of the guard and the recovery, so that a resumed run judges as the unbroken one.
@@ -24,7 +24,7 @@ struct Watch {
   Guard guard;
   int tries = 0, recoveries = 0;
   double step_factor = 1.0;
-  double clear_after = 0.0;        ///< s: past this time the trouble lies behind
+  double clear_after = 0.0;  ///< s: past this time the trouble lies behind
 };
 
 /// Keeps the last two states that the guard had nothing against, whole, as a checkpoint holds them. After trouble a
@@ -32,11 +32,11 @@ struct Watch {
 /// outran its sound, with a higher sound speed. When it has come through, the step grows again.
 class Recovery {
  public:
-  static constexpr int most_tries = 3;            ///< for one trouble
-  static constexpr int most_recoveries = 12;      ///< in one run
-  static constexpr double sound_factor = 1.5;     ///< each try
+  static constexpr int most_tries = 3;         ///< for one trouble
+  static constexpr int most_recoveries = 12;   ///< in one run
+  static constexpr double sound_factor = 1.5;  ///< each try
 
-  static constexpr std::size_t most_states = 2;   ///< good, held at a time
+  static constexpr std::size_t most_states = 2;  ///< good, held at a time
 
   /// `memory`: bytes that the states may take; 0: none are kept.
   explicit Recovery(double memory) : memory_(memory) {}
@@ -62,10 +62,10 @@ class Recovery {
   void load(const GoodState& kept, Simulation& simulation);
 
   double memory_;
-  std::deque<GoodState> kept_;          ///< oldest first
+  std::deque<GoodState> kept_;  ///< oldest first
   int tries_ = 0, recoveries_ = 0;
   double step_factor_ = 1.0;
-  double clear_after_ = 0.0;       ///< s: past this time the trouble lies behind
+  double clear_after_ = 0.0;  ///< s: past this time the trouble lies behind
 };
 
 }  // namespace gdesp::tool

@@ -49,18 +49,38 @@ void remove_parts(const fs::path& folder) {
 }  // namespace
 
 ordered_json diagnostics_record(const Diagnostics& d) {
-  ordered_json record{{"t", d.time}, {"step", d.step}, {"dt", d.time_step}, {"limited_by", d.limited_by},
-          {"fluid_mass", d.fluid_mass}, {"fluid_kinetic", d.fluid_kinetic}, {"fluid_potential", d.fluid_potential},
-          {"fluid_elastic", d.fluid_elastic}, {"fluid_momentum", vector_json(d.fluid_momentum)},
-          {"grain_mass", d.grain_mass}, {"grain_kinetic", d.grain_kinetic}, {"grain_potential", d.grain_potential},
-          {"grain_elastic", d.grain_elastic}, {"grain_momentum", vector_json(d.grain_momentum)},
-          {"body_kinetic", d.body_kinetic}, {"body_potential", d.body_potential}, {"body_elastic", d.body_elastic},
-          {"body_momentum", vector_json(d.body_momentum)}, {"largest_body_speed", d.largest_body_speed},
-          {"largest_speed", d.largest_speed}, {"largest_grain_speed", d.largest_grain_speed}, {"mach", d.mach},
-          {"largest_density_error", d.largest_density_error}, {"largest_overlap", d.largest_overlap},
-          {"deepest_in_wall", d.deepest_in_wall}, {"fluid_particles", d.fluid_particles}, {"grains", d.grains}, {"lost_fluid", d.lost_fluid},
-          {"lost_grains", d.lost_grains}, {"rebuilds", d.rebuilds}, {"grain_substeps", d.grain_substeps},
-          {"awake_share", d.awake_share}};
+  ordered_json record{{"t", d.time},
+                      {"step", d.step},
+                      {"dt", d.time_step},
+                      {"limited_by", d.limited_by},
+                      {"fluid_mass", d.fluid_mass},
+                      {"fluid_kinetic", d.fluid_kinetic},
+                      {"fluid_potential", d.fluid_potential},
+                      {"fluid_elastic", d.fluid_elastic},
+                      {"fluid_momentum", vector_json(d.fluid_momentum)},
+                      {"grain_mass", d.grain_mass},
+                      {"grain_kinetic", d.grain_kinetic},
+                      {"grain_potential", d.grain_potential},
+                      {"grain_elastic", d.grain_elastic},
+                      {"grain_momentum", vector_json(d.grain_momentum)},
+                      {"body_kinetic", d.body_kinetic},
+                      {"body_potential", d.body_potential},
+                      {"body_elastic", d.body_elastic},
+                      {"body_momentum", vector_json(d.body_momentum)},
+                      {"largest_body_speed", d.largest_body_speed},
+                      {"largest_speed", d.largest_speed},
+                      {"largest_grain_speed", d.largest_grain_speed},
+                      {"mach", d.mach},
+                      {"largest_density_error", d.largest_density_error},
+                      {"largest_overlap", d.largest_overlap},
+                      {"deepest_in_wall", d.deepest_in_wall},
+                      {"fluid_particles", d.fluid_particles},
+                      {"grains", d.grains},
+                      {"lost_fluid", d.lost_fluid},
+                      {"lost_grains", d.lost_grains},
+                      {"rebuilds", d.rebuilds},
+                      {"grain_substeps", d.grain_substeps},
+                      {"awake_share", d.awake_share}};
   if (d.far_lakes > 0) {
     record["far_lake_mass"] = d.far_lake_mass;
     record["far_lake_kinetic"] = d.far_lake_kinetic;
@@ -112,8 +132,7 @@ void DiagnosticsLog::go_back(std::int64_t step, const ordered_json& record) {
 }
 
 void write_run_json(const std::string& run_folder, const ordered_json& content) {
-  write_text_file(run_folder + "/run.json",
-                  content.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n");
+  write_text_file(run_folder + "/run.json", content.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n");
 }
 
 ordered_json read_run_json(const std::string& run_folder) {

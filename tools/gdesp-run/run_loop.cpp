@@ -36,7 +36,8 @@ GuardSetup guard_setup(const Session& s) {
   GuardSetup setup;
   setup.spacing_energy = norm(scene.gravity) * scene.dp;
   const std::vector<Body>& bodies = s.scene_case.bodies;
-  setup.watches_energy = std::all_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.kind == BodyKind::far_lake; });
+  setup.watches_energy =
+      std::all_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.kind == BodyKind::far_lake; });
   for (const std::string& axis : scene.periodic)
     if ((axis == "x" ? scene.gravity.x : scene.gravity.y) != 0.0) setup.watches_energy = false;  // it falls for ever
   return setup;
@@ -58,11 +59,20 @@ ordered_json run_description(const Session& s) {
   for (const std::string& argument : s.options.arguments) command += " " + argument;
   ordered_json overrides = ordered_json::array();
   for (const Override& o : s.options.overrides) overrides.push_back(o.key + "=" + o.value);
-  return {{"program", "gdesp-run"}, {"version", gdesp::version}, {"commit", gdesp::commit},
-          {"build", std::string(gdesp::compiler) + ", " + gdesp::build_type}, {"command", command},
-          {"case", s.options.case_path}, {"overrides", overrides}, {"device", s.device},
-          {"device_name", s.device_name}, {"threads", s.threads}, {"started", utc_now()},
-          {"t_end", s.times.end}, {"output_interval", s.times.interval}, {"scene", s.summary.json}};
+  return {{"program", "gdesp-run"},
+          {"version", gdesp::version},
+          {"commit", gdesp::commit},
+          {"build", std::string(gdesp::compiler) + ", " + gdesp::build_type},
+          {"command", command},
+          {"case", s.options.case_path},
+          {"overrides", overrides},
+          {"device", s.device},
+          {"device_name", s.device_name},
+          {"threads", s.threads},
+          {"started", utc_now()},
+          {"t_end", s.times.end},
+          {"output_interval", s.times.interval},
+          {"scene", s.summary.json}};
 }
 
 /// One run under way: the simulation, its output, its clock.
@@ -118,9 +128,7 @@ class Run {
     if (terminal_ || reader_gone_) return;
     try {
       cli::write_record(frame_record(paths, session_.options.case_path));
-    } catch (const Error&) {
-      throw;
-    } catch (...) {  // a closed pipe is no std::exception
+    } catch (const Error&) { throw; } catch (...) {  // a closed pipe is no std::exception
       closed_pipe_ = std::current_exception();
       reader_gone_ = true;
     }
@@ -128,7 +136,8 @@ class Run {
 
   /// Nobody reads our records any more: the tool ends quietly, and the run can go on later.
   [[noreturn]] void leave() {
-    write_status(simulation().time() < session_.times.end ? "interrupted" : "done", "the reader of the records has gone");
+    write_status(simulation().time() < session_.times.end ? "interrupted" : "done",
+                 "the reader of the records has gone");
     std::rethrow_exception(closed_pipe_);
   }
 
@@ -222,9 +231,9 @@ class Run {
     log_.go_back(record["step"].get<std::int64_t>(), record);
     description_["recoveries"].push_back(record);
     cli::warning(trouble_text(trouble, offender) + "; going back to t = " + number_text(simulation().time(), 6) +
-                 " s, on with " + number_text(record["step_factor"].get<double>(), 3) + " of the time step and a sound speed of " +
-                 number_text(simulation().sound_speed()) + " m/s (try " + std::to_string(record["try"].get<int>()) + " of " +
-                 std::to_string(Recovery::most_tries) + ")");
+                 " s, on with " + number_text(record["step_factor"].get<double>(), 3) +
+                 " of the time step and a sound speed of " + number_text(simulation().sound_speed()) + " m/s (try " +
+                 std::to_string(record["try"].get<int>()) + " of " + std::to_string(Recovery::most_tries) + ")");
   }
 
   /// A particle whose state is no number is where it was in the good state.
@@ -244,7 +253,8 @@ class Run {
   [[noreturn]] void give_up(const Trouble& trouble, std::optional<Offender> offender) {
     const std::string& run = session_.options.run_folder;
     output_.drain();
-    ordered_json report{{"cause", trouble.what}, {"remedy", trouble.remedy}, {"step", trouble.step}, {"t", trouble.time}};
+    ordered_json report{
+        {"cause", trouble.what}, {"remedy", trouble.remedy}, {"step", trouble.step}, {"t", trouble.time}};
     report["offending"] = write_failure_state(run, "offending", frame_of(session_));
     const std::string tries = recovery_.tries_text(simulation());
     if (recovery_.has_state()) {
@@ -253,8 +263,9 @@ class Run {
       report["good"] = write_failure_state(run, "good", frame_of(session_));
       report["good"]["checkpoint"] = checkpoints_.write(simulation(), guard_, recovery_, wall_seconds()).path;
     }
-    const std::string message = trouble_text(trouble, offender) + tries + ". What to change: " + trouble.remedy + ". " + run +
-                                "/failure holds this state" + (recovery_.has_state() ? " and the last good one" : "");
+    const std::string message = trouble_text(trouble, offender) + tries + ". What to change: " + trouble.remedy + ". " +
+                                run + "/failure holds this state" +
+                                (recovery_.has_state() ? " and the last good one" : "");
     report["message"] = message;
     write_failure_report(run, report);
     throw Error(ErrorKind::numerical, message);
@@ -266,8 +277,8 @@ class Run {
     told_ = now;
     const double t = simulation().time(), end = session_.times.end;
     progress.update((t - first) / (end - first), "t " + number_text(t) + " of " + number_text(end) + " s  dt " +
-                                                     number_text(simulation().last_time_step(), 2) + " s (" + simulation().limited_by() +
-                                                     ")  score " + number_text(score(), 3));
+                                                     number_text(simulation().last_time_step(), 2) + " s (" +
+                                                     simulation().limited_by() + ")  score " + number_text(score(), 3));
   }
 
   void write_status(const char* status, const std::string& message) {
@@ -279,32 +290,39 @@ class Run {
     description_["score"] = score();
     description_["memory"] = exec::peak_allocated_bytes();
     if (session_.options.profile)
-      for (const auto& row : exec::profile()) description_["profile"][row.name] = {{"seconds", row.seconds}, {"calls", row.calls}};
+      for (const auto& row : exec::profile())
+        description_["profile"][row.name] = {{"seconds", row.seconds}, {"calls", row.calls}};
     write_run_json(session_.options.run_folder, description_);
   }
 
   void finish(int code) {
     const bool done = code == 0;
     write_status(done ? "done" : "interrupted", {});
-    ordered_json record{{"record", done ? "done" : "interrupted"}, {"run", session_.options.run_folder},
-                              {"case", session_.options.case_path}, {"steps", simulation().step_count()},
-                              {"t", simulation().time()}, {"wall_seconds", wall_seconds()},
-                              {"particles", session_.summary.moving_particles},
-                        {"lost", latest_.lost_fluid + latest_.lost_grains}, {"score", score()},
-                              {"device", session_.device}};
+    ordered_json record{{"record", done ? "done" : "interrupted"},
+                        {"run", session_.options.run_folder},
+                        {"case", session_.options.case_path},
+                        {"steps", simulation().step_count()},
+                        {"t", simulation().time()},
+                        {"wall_seconds", wall_seconds()},
+                        {"particles", session_.summary.moving_particles},
+                        {"lost", latest_.lost_fluid + latest_.lost_grains},
+                        {"score", score()},
+                        {"device", session_.device}};
     if (!done && checkpoint_) {
       record["checkpoint"] = checkpoint_->path;
       cli::info("interrupted at t = " + number_text(simulation().time()) + " s; gdesp-run --resume -o " +
                 session_.options.run_folder + " goes on");
     }
-    if (!terminal_) cli::write_record(record);
-    else std::cout << summary_text(done) << std::flush;
+    if (!terminal_)
+      cli::write_record(record);
+    else
+      std::cout << summary_text(done) << std::flush;
     if (session_.options.profile) tell_profile();
   }
 
   std::string summary_text(bool done) {
-    return (done ? "done: " : "interrupted: ") + std::to_string(simulation().step_count()) + " steps to t = " +
-           number_text(simulation().time()) + " s in " + duration_text(wall_seconds()) + " (score " +
+    return (done ? "done: " : "interrupted: ") + std::to_string(simulation().step_count()) +
+           " steps to t = " + number_text(simulation().time()) + " s in " + duration_text(wall_seconds()) + " (score " +
            number_text(score(), 3) + "), " + session_.device_name + "\nframes: " + session_.options.run_folder + "\n";
   }
 
@@ -324,15 +342,18 @@ class Run {
     const auto attempt = [](const auto& part) {
       try {
         part();
-      } catch (...) {
-      }
+      } catch (...) {}
     };
     attempt([&] { output_.drain(); });
     attempt([&] { write_status("failed", message); });
     if (terminal_) return;
     attempt([&] {
-      cli::write_record({{"record", "failed"}, {"reason", message}, {"message", message}, {"t", simulation().time()},
-                         {"step", simulation().step_count()}, {"run", session_.options.run_folder}});
+      cli::write_record({{"record", "failed"},
+                         {"reason", message},
+                         {"message", message},
+                         {"t", simulation().time()},
+                         {"step", simulation().step_count()},
+                         {"run", session_.options.run_folder}});
     });
   }
 
@@ -354,8 +375,10 @@ class Run {
 
 std::optional<Checkpoint> resume(Session& session) {
   auto checkpoint = CheckpointFiles(session.options.run_folder, session.fingerprint).load_newest(*session.simulation);
-  if (checkpoint) cli::info("goes on at t = " + number_text(checkpoint->time) + " s, step " + std::to_string(checkpoint->step));
-  else cli::info("no checkpoint yet: starts from the beginning");
+  if (checkpoint)
+    cli::info("goes on at t = " + number_text(checkpoint->time) + " s, step " + std::to_string(checkpoint->step));
+  else
+    cli::info("no checkpoint yet: starts from the beginning");
   return checkpoint;
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double pi = 3.14159265358979324;
 constexpr double overlap_at_rest = 0.01, overlap_on_impact = 0.05;  // of a diameter, allowed
-constexpr double impact_share = 1.0 / 3.0;    // of the expected speed: between grains of one slide
+constexpr double impact_share = 1.0 / 3.0;  // of the expected speed: between grains of one slide
 constexpr double packing = 0.6;
 
 struct Rectangle {
@@ -75,11 +75,16 @@ void add(SceneSummary& s, const char* name, bool used, double saving, const std:
 void describe_width(SceneSummary& s, const Scene& scene) {
   const std::string what = needless_width(scene);
   if (what == "dimensions")
-    add(s, "  along y", false, 1.0, "the scene is the same all along y: mesh2particles --set dimensions=2 gives the same answer from one layer");
+    add(s, "  along y", false, 1.0,
+        "the scene is the same all along y: mesh2particles --set dimensions=2 gives the same answer from one layer");
   if (what == "periodic")
-    add(s, "  along y", false, 0.5, "the scene is the same all along y: a slab some 10 grains wide with domain.periodic = [\"y\"] gives the same answer");
+    add(s, "  along y", false, 0.5,
+        "the scene is the same all along y: a slab some 10 grains wide with domain.periodic = [\"y\"] gives the same "
+        "answer");
   if (what == "half")
-    add(s, "  symmetry", false, 0.5, "mirrored about the middle of the tank: half of it, with wall.symmetry = [\"y+\"] in the middle, gives the same answer");
+    add(s, "  symmetry", false, 0.5,
+        "mirrored about the middle of the tank: half of it, with wall.symmetry = [\"y+\"] in the middle, gives the "
+        "same answer");
 }
 
 /// Particles that the columns stand for.
@@ -91,10 +96,12 @@ void describe_far_lakes(SceneSummary& s, const SimulationInput& in) {
   for (const Body& body : in.bodies) {
     if (body.kind != BodyKind::far_lake) continue;
     const FarLakeShape& lake = body.far_lake;
-    const double columns = far_particles(lake, in.fluid_parameters), all = columns + static_cast<double>(in.fluid.position.size());
-    add(s, "  far lake", true, columns / all, std::to_string(lake.columns) + " columns, " + number_text(lake.length) + " m, behind " + body.name + ": in place of " +
-                                                  percent(columns / all) + " of the water; for waves longer than " + number_text(4.5 * lake.depth, 2) +
-                                                  " m that do not break");
+    const double columns = far_particles(lake, in.fluid_parameters),
+                 all = columns + static_cast<double>(in.fluid.position.size());
+    add(s, "  far lake", true, columns / all,
+        std::to_string(lake.columns) + " columns, " + number_text(lake.length) + " m, behind " + body.name +
+            ": in place of " + percent(columns / all) + " of the water; for waves longer than " +
+            number_text(4.5 * lake.depth, 2) + " m that do not break");
   }
 }
 
@@ -104,14 +111,17 @@ void describe_contact_stiffness(SceneSummary& s, const SimulationInput& in, doub
   const double now = hertz ? in.contact.youngs_modulus : in.contact.stiffness, ratio = now / c.stiffness;
   s.json["overlap_estimate"] = {c.at_rest, c.on_impact};
   const std::string key = hertz ? "contact.youngs_modulus" : "contact.stiffness";
-  const std::string text = "overlaps of about " + percent(c.at_rest) + " of a diameter at rest, " + percent(c.on_impact) + " on impact";
+  const std::string text =
+      "overlaps of about " + percent(c.at_rest) + " of a diameter at rest, " + percent(c.on_impact) + " on impact";
   if (ratio > 1.5) {
     s.json["proposed_contact"] = {{key, c.stiffness}};
     const double saving = grain_share * (1.0 - 1.0 / std::sqrt(ratio));
-    add(s, "  softer contact", false, saving, text + "; " + key + " = " + number_text(c.stiffness, 2) + " (1 % and 5 % at most) would save " +
-                                                  percent(saving) + " of the time");
+    add(s, "  softer contact", false, saving,
+        text + "; " + key + " = " + number_text(c.stiffness, 2) + " (1 % and 5 % at most) would save " +
+            percent(saving) + " of the time");
   } else if (ratio < 0.5) {
-    add(s, "  softer contact", false, 0.0, text + ": too soft; " + key + " = " + number_text(c.stiffness, 2) + " would give 1 % and 5 % at most");
+    add(s, "  softer contact", false, 0.0,
+        text + ": too soft; " + key + " = " + number_text(c.stiffness, 2) + " would give 1 % and 5 % at most");
   } else {
     add(s, "  softer contact", false, 0.0, text + ": no room for a softer contact");
   }
@@ -154,7 +164,8 @@ std::size_t walls_beside_water(const SimulationInput& in) {
 ContactSoftness contact_softness(const SimulationInput& in, double expected_speed) {
   double d = 0.0, density = 0.0;
   for (std::size_t i = 0; i < in.grains.diameter.size(); ++i)
-    if (static_cast<double>(in.grains.diameter[i]) > d) d = static_cast<double>(in.grains.diameter[i]), density = static_cast<double>(in.grains.density[i]);
+    if (static_cast<double>(in.grains.diameter[i]) > d)
+      d = static_cast<double>(in.grains.diameter[i]), density = static_cast<double>(in.grains.density[i]);
   const double mass = 0.5 * density * grain_volume(d, in.fluid_parameters.dimensions);  // of a pair
   const double weight = packing * density * norm(in.fluid_parameters.gravity) * slide_thickness(in, d) *
                         std::pow(d, in.fluid_parameters.dimensions - 1);
@@ -166,18 +177,21 @@ ContactSoftness contact_softness(const SimulationInput& in, double expected_spee
     const double root = std::sqrt(0.25 * d);
     c.at_rest = std::pow(0.75 * weight / (pair * root), 2.0 / 3.0) / d;
     c.on_impact = std::pow(15.0 * mass * v * v / (16.0 * pair * root), 0.4) / d;
-    c.stiffness = E * std::max(std::pow(c.at_rest / overlap_at_rest, 1.5), std::pow(c.on_impact / overlap_on_impact, 2.5));
+    c.stiffness =
+        E * std::max(std::pow(c.at_rest / overlap_at_rest, 1.5), std::pow(c.on_impact / overlap_on_impact, 2.5));
   } else {
     const double k = hertz ? dem::line_contact_stiffness(pair) : in.contact.stiffness;
     c.at_rest = weight / k / d;
     c.on_impact = v * std::sqrt(mass / k) / d;
-    c.stiffness = (hertz ? E : k) * std::max(c.at_rest / overlap_at_rest, std::pow(c.on_impact / overlap_on_impact, 2.0));
+    c.stiffness =
+        (hertz ? E : k) * std::max(c.at_rest / overlap_at_rest, std::pow(c.on_impact / overlap_on_impact, 2.0));
   }
   return c;
 }
 
 std::string needless_width(const Scene& scene) {
-  if (scene.dimensions == 2 || !scene.terrain.files.empty() || !scene.floating.empty() || !scene.periodic.empty()) return "";
+  if (scene.dimensions == 2 || !scene.terrain.files.empty() || !scene.floating.empty() || !scene.periodic.empty())
+    return "";
   if (scene.walls.size() != 1) return "";
   const Wall& wall = scene.walls.front();
   if (!wall.tank || wall.condition != "free-slip" || !wall.symmetry.empty()) return "";
@@ -185,7 +199,10 @@ std::string needless_width(const Scene& scene) {
   const double middle = 0.5 * (tank.lower.y + tank.upper.y), near = 1.0e-9 * (tank.upper.y - tank.lower.y);
   bool spans = true, mirrored = true, possible = norm(Vec3d{scene.gravity.x, scene.gravity.y, 0.0}) == 0.0;
   const auto look = [&](const std::optional<Box>& box) {
-    if (!box) { possible = false; return; }
+    if (!box) {
+      possible = false;
+      return;
+    }
     spans = spans && box->lower.y <= tank.lower.y + near && box->upper.y >= tank.upper.y - near;
     mirrored = mirrored && std::abs(0.5 * (box->lower.y + box->upper.y) - middle) <= near;
   };
@@ -200,7 +217,8 @@ std::string needless_width(const Scene& scene) {
     possible = possible && body.velocity.y == 0.0 && body.motion_csv.empty();
   }
   if (!possible) return "";
-  const bool grains = std::any_of(scene.slides.begin(), scene.slides.end(), [](const Slide& s) { return s.kind == "granular"; });
+  const bool grains =
+      std::any_of(scene.slides.begin(), scene.slides.end(), [](const Slide& s) { return s.kind == "granular"; });
   if (spans) return grains ? "periodic" : "dimensions";
   return mirrored ? "half" : "";
 }
@@ -221,23 +239,30 @@ void describe_economies(SceneSummary& s, const Scene& scene, const SimulationInp
   const double step = step_seconds(costs, work), steps = std::ceil(end / s.time_step);
   s.wall_seconds = steps * step;
   s.json["wall_seconds_estimate"] = s.wall_seconds;
-  s.json["step_costs"] = {{"water", costs.water}, {"wall", costs.wall}, {"grain", costs.grain}, {"coupling", costs.coupling}};
+  s.json["step_costs"] = {
+      {"water", costs.water}, {"wall", costs.wall}, {"grain", costs.grain}, {"coupling", costs.coupling}};
   const double grain_share = costs.grain * work.grains * work.grain_steps / step;
-  s.lines.push_back(label("cost of a step", number_text(1e3 * step, 3) + " ms: water " + percent(costs.water * work.water / step) +
-                          ", walls " + percent(costs.wall * work.walls / step) + ", grains " + percent(grain_share) + ", coupling " +
-                          percent(costs.coupling * work.grains / step) + " (measured just now on a small tank)"));
+  s.lines.push_back(
+      label("cost of a step", number_text(1e3 * step, 3) + " ms: water " + percent(costs.water * work.water / step) +
+                                  ", walls " + percent(costs.wall * work.walls / step) + ", grains " +
+                                  percent(grain_share) + ", coupling " + percent(costs.coupling * work.grains / step) +
+                                  " (measured just now on a small tank)"));
   s.lines.push_back(label("expected", number_text(steps, 2) + " steps, about " + duration_text(s.wall_seconds)));
   s.lines.push_back("economies");
   s.json["economies"] = nlohmann::ordered_json::object();
   if (reach.particles < 1.0 || reach.steps < 0.99 || sleeps)
     add(s, "  still water", sleeps, 1.0 - reach.steps,
-        std::string(sleeps ? "sleeps until disturbed" : "could sleep (economy.sleep = true; steep waves lose some percent, docs/economy.md)") +
-            ": waves reach " + percent(reach.particles) + " of the water until the end, " + percent(reach.steps) + " of all particle steps");
+        std::string(sleeps ? "sleeps until disturbed"
+                           : "could sleep (economy.sleep = true; steep waves lose some percent, docs/economy.md)") +
+            ": waves reach " + percent(reach.particles) + " of the water until the end, " + percent(reach.steps) +
+            " of all particle steps");
   describe_far_lakes(s, in);
   if (!in.boundary.position.empty())
     add(s, "  walls", in.fluid_parameters.activity.near_walls, 0.0,
-        std::to_string(beside) + " of " + std::to_string(in.boundary.position.size()) + " particles lie beside water at the start; " +
-            (in.fluid_parameters.activity.near_walls ? "the others are not touched" : "all are visited (economy.near_walls = false)"));
+        std::to_string(beside) + " of " + std::to_string(in.boundary.position.size()) +
+            " particles lie beside water at the start; " +
+            (in.fluid_parameters.activity.near_walls ? "the others are not touched"
+                                                     : "all are visited (economy.near_walls = false)"));
   if (scene.numerics.viscosity == "morris" && in.fluid_parameters.viscosity == sph::Viscosity::none)
     add(s, "  viscosity", true, 0.1, "left out: its layer, sqrt(nu t), stays below 0.2 dp (economy.viscosity)");
   if (!in.grains.position.empty() && !in.fluid.position.empty()) {

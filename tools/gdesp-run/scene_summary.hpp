@@ -14,10 +14,10 @@ namespace gdesp::tool {
 struct SceneSummary {
   std::vector<std::string> lines;
   nlohmann::ordered_json json;
-  std::size_t moving_particles = 0;   ///< water and grains: the n of the score N = n t / T
-  double time_step = 0.0;             ///< s, estimated for water at the expected speed
-  double memory = 0.0;                ///< bytes, estimated
-  double wall_seconds = 0.0;          ///< estimated from step costs (scene_economy.hpp)
+  std::size_t moving_particles = 0;  ///< water and grains: the n of the score N = n t / T
+  double time_step = 0.0;            ///< s, estimated for water at the expected speed
+  double memory = 0.0;               ///< bytes, estimated
+  double wall_seconds = 0.0;         ///< estimated from step costs (scene_economy.hpp)
 };
 
 /// `device` as resolve_device gives it; `expected` belongs to the case that `input` came from.

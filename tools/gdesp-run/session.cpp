@@ -64,7 +64,8 @@ Session prepare(RunOptions options) {
   s.summary = summarize(s.scene_case.scene, s.input, expected, s.device, s.threads);
   const auto is_free = [](const Body& body) { return body.kind == BodyKind::free; };
   if (s.summary.moving_particles == 0 && std::none_of(s.input.bodies.begin(), s.input.bodies.end(), is_free))
-    throw Error(ErrorKind::input, options.case_path + ": has neither water nor grains nor a free body; there is nothing to simulate");
+    throw Error(ErrorKind::input,
+                options.case_path + ": has neither water nor grains nor a free body; there is nothing to simulate");
   describe_economies(s.summary, s.scene_case.scene, s.input, expected, measure_step_costs(s.input, s.device));
   exec::set_profiling(options.profile);
   s.options = std::move(options);

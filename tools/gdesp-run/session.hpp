@@ -14,14 +14,14 @@ namespace gdesp::tool {
 
 struct Session {
   RunOptions options;
-  Case scene_case;                  ///< scene, walls, bodies; its particles have gone into the simulation
-  SimulationInput input;            ///< particles and all, until start()
+  Case scene_case;        ///< scene, walls, bodies; its particles have gone into the simulation
+  SimulationInput input;  ///< particles and all, until start()
   SceneSummary summary;
   OutputTimes times;
-  std::string device;               ///< cpu or cuda:N
-  std::string device_name;          ///< for people
+  std::string device;       ///< cpu or cuda:N
+  std::string device_name;  ///< for people
   int threads = 1;
-  std::uint64_t fingerprint = 0;    ///< of the case and its parameters, not of the end and the output
+  std::uint64_t fingerprint = 0;  ///< of the case and its parameters, not of the end and the output
   std::unique_ptr<Simulation> simulation;
 };
 

@@ -27,10 +27,10 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-constexpr double refinement = 1.3;           // between pilots
+constexpr double refinement = 1.3;                                    // between pilots
 constexpr double plane_particles = 1500.0, space_particles = 3000.0;  // of water, in the coarsest pilot
 constexpr std::size_t least_pilots = 3, most_pilots = 6;
-constexpr double pilot_share = 0.1;          // of the budget, for the finest pilot
+constexpr double pilot_share = 0.1;  // of the budget, for the finest pilot
 
 /// Runs a program that lies beside this one; returns what it writes to stdout. Throws Error with its exit code's kind.
 std::string output_of(const std::string& program, const std::vector<std::string>& arguments) {
@@ -57,13 +57,14 @@ std::string output_of(const std::string& program, const std::vector<std::string>
   std::string text;
   char block[4096];
   for (ssize_t n; (n = ::read(ends[0], block, sizeof block)) != 0;) {
-    if (n > 0) text.append(block, static_cast<std::size_t>(n));
-    else if (errno != EINTR) break;
+    if (n > 0)
+      text.append(block, static_cast<std::size_t>(n));
+    else if (errno != EINTR)
+      break;
   }
   ::close(ends[0]);
   int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {}
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 5;
   if (code == 0) return text;
   throw Error(code == 2 || code == 3 ? ErrorKind::input : (code == 4 ? ErrorKind::numerical : ErrorKind::resource),
@@ -142,24 +143,28 @@ double first_dp(const RunOptions& o, const Scene& scene, const std::string& fold
 Pilot run_pilot(const RunOptions& o, const Scene& scene, double dp, const std::string& folder) {
   const std::string name = folder + "/pilot";
   build(o, scene, dp, name + ".case");
-  std::vector<std::string> words{name + ".case", "-o", name + ".run", "--force", "--quiet", "--device", o.device,
-                                 "--threads", std::to_string(o.threads)};
+  std::vector<std::string> words{name + ".case", "-o",        name + ".run",
+                                 "--force",      "--quiet",   "--device",
+                                 o.device,       "--threads", std::to_string(o.threads)};
   if (o.t_end) words.insert(words.end(), {"--t-end", number_text(*o.t_end, 12)});
   const double before = processor_seconds(RUSAGE_CHILDREN);
   output_of("gdesp-run", words);
   const double processor = processor_seconds(RUSAGE_CHILDREN) - before;
   const Pilot pilot{dp, highest_run_up(name + ".run"), wall_seconds_of(name + ".run"), processor};
-  cli::info("pilot: dp " + number_text(dp, 3) + " m, run-up " + number_text(pilot.run_up) + " m, " + duration_text(pilot.seconds));
+  cli::info("pilot: dp " + number_text(dp, 3) + " m, run-up " + number_text(pilot.run_up) + " m, " +
+            duration_text(pilot.seconds));
   return pilot;
 }
 
-std::vector<Pilot> run_pilots(const RunOptions& o, const Scene& scene, const Targets& targets, const std::string& folder) {
+std::vector<Pilot> run_pilots(const RunOptions& o, const Scene& scene, const Targets& targets,
+                              const std::string& folder) {
   std::vector<Pilot> pilots;
   double dp = first_dp(o, scene, folder);
   while (pilots.size() < most_pilots && !cli::interrupted()) {
     pilots.push_back(run_pilot(o, scene, dp, folder));
     dp /= refinement;
-    const bool dear = targets.budget <= 0.0 || predicted_seconds(pilots, dp, scene.dimensions) > pilot_share * targets.budget;
+    const bool dear =
+        targets.budget <= 0.0 || predicted_seconds(pilots, dp, scene.dimensions) > pilot_share * targets.budget;
     if (pilots.size() >= least_pilots && dear) break;
   }
   return pilots;
@@ -172,10 +177,15 @@ ordered_json to_json(const Pilot& p) {
 std::string percent(double share) { return number_text(100.0 * share, 3) + " %"; }
 
 /// Says what was reached, and writes it to target.json in the run folder.
-void tell_reached(const RunOptions& o, const Targets& targets, std::vector<Pilot> runs, const Choice& choice, double processor) {
+void tell_reached(const RunOptions& o, const Targets& targets, std::vector<Pilot> runs, const Choice& choice,
+                  double processor) {
   const Pilot reached{choice.dp, highest_run_up(o.run_folder), wall_seconds_of(o.run_folder), processor};
-  ordered_json record{{"accuracy", targets.accuracy}, {"budget", targets.budget}, {"reason", choice.reason},
-                      {"dp", choice.dp}, {"predicted_seconds", choice.seconds}, {"predicted_error", choice.error}};
+  ordered_json record{{"accuracy", targets.accuracy},
+                      {"budget", targets.budget},
+                      {"reason", choice.reason},
+                      {"dp", choice.dp},
+                      {"predicted_seconds", choice.seconds},
+                      {"predicted_error", choice.error}};
   for (const Pilot& p : runs) record["pilots"].push_back(to_json(p));
   runs.push_back(reached);
   const RunUpFit fit = fit_run_up(runs);
@@ -184,9 +194,9 @@ void tell_reached(const RunOptions& o, const Targets& targets, std::vector<Pilot
   record["reached_error"] = error;
   record["limit"] = fit.limit;
   write_text_file(o.run_folder + "/target.json", record.dump(1) + "\n");
-  cli::info("target: run-up " + number_text(reached.run_up) + " m; with dp to 0 " + number_text(fit.limit) + " m, so off by " +
-            percent(error) + " (promised " + percent(choice.error) + "); " + duration_text(reached.seconds) + " (promised " +
-            duration_text(choice.seconds) + ")");
+  cli::info("target: run-up " + number_text(reached.run_up) + " m; with dp to 0 " + number_text(fit.limit) +
+            " m, so off by " + percent(error) + " (promised " + percent(choice.error) + "); " +
+            duration_text(reached.seconds) + " (promised " + duration_text(choice.seconds) + ")");
 }
 
 }  // namespace
@@ -199,12 +209,15 @@ int run_to_target(const RunOptions& o) {
   const std::vector<Pilot> pilots = run_pilots(o, scene, targets, folder);
   if (cli::interrupted()) return 130;
   if (!(fit_run_up(pilots).limit > 0.0))
-    throw Error(ErrorKind::input, o.case_path + ": the pilot runs have no run-up to aim at (surge-analyze runup); give resolution.dp instead");
+    throw Error(
+        ErrorKind::input,
+        o.case_path + ": the pilot runs have no run-up to aim at (surge-analyze runup); give resolution.dp instead");
   const Choice choice = choose_dp(pilots, targets, scene.dimensions);
-  cli::info("chosen: dp " + number_text(choice.dp, 3) + " m, preset " + scene.numerics.preset + ": " + choice.reason + "; about " +
-            duration_text(choice.seconds) + ", run-up within about " + percent(choice.error));
+  cli::info("chosen: dp " + number_text(choice.dp, 3) + " m, preset " + scene.numerics.preset + ": " + choice.reason +
+            "; about " + duration_text(choice.seconds) + ", run-up within about " + percent(choice.error));
   fs::remove_all(folder);
-  const std::string case_path = (fs::path(o.run_folder).parent_path() / fs::path(o.run_folder).stem()).string() + ".case";
+  const std::string case_path =
+      (fs::path(o.run_folder).parent_path() / fs::path(o.run_folder).stem()).string() + ".case";
   build(o, scene, choice.dp, case_path);
   RunOptions run = o;
   run.case_path = case_path;

@@ -7,9 +7,7 @@
 
 namespace gdesp::tool {
 
-double RunUpFit::error(double dp) const {
-  return limit > 0.0 ? (std::abs(slope) * dp + scatter) / limit : INFINITY;
-}
+double RunUpFit::error(double dp) const { return limit > 0.0 ? (std::abs(slope) * dp + scatter) / limit : INFINITY; }
 
 double RunUpFit::dp_for(double error) const {
   const double allowed = error * limit - scatter;
@@ -32,20 +30,20 @@ RunUpFit fit_run_up(const std::vector<Pilot>& pilots) {
 }
 
 double predicted_seconds(const std::vector<Pilot>& pilots, double dp, int dimensions) {
-  const auto finest = std::min_element(pilots.begin(), pilots.end(), [](const Pilot& a, const Pilot& b) { return a.dp < b.dp; });
+  const auto finest =
+      std::min_element(pilots.begin(), pilots.end(), [](const Pilot& a, const Pilot& b) { return a.dp < b.dp; });
   return finest->seconds * std::pow(finest->dp / dp, dimensions + 1);
 }
 
 namespace {
 
-double number_before(const std::string& text, const std::vector<std::pair<std::string, double>>& units, const std::string& what) {
+double number_before(const std::string& text, const std::vector<std::pair<std::string, double>>& units,
+                     const std::string& what) {
   std::size_t used = 0;
   double value = 0.0;
   try {
     value = std::stod(text, &used);
-  } catch (const std::exception&) {
-    used = 0;
-  }
+  } catch (const std::exception&) { used = 0; }
   const std::string unit = text.substr(used);
   for (const auto& [name, factor] : units)
     if (used > 0 && unit == name && value > 0.0 && std::isfinite(value)) return value * factor;
@@ -68,20 +66,26 @@ double parse_duration(const std::string& text) {
 
 Choice choose_dp(const std::vector<Pilot>& pilots, const Targets& targets, int dimensions) {
   const RunUpFit fit = fit_run_up(pilots);
-  const Pilot finest = *std::min_element(pilots.begin(), pilots.end(), [](const Pilot& a, const Pilot& b) { return a.dp < b.dp; });
+  const Pilot finest =
+      *std::min_element(pilots.begin(), pilots.end(), [](const Pilot& a, const Pilot& b) { return a.dp < b.dp; });
   double spent = 0.0;
   for (const Pilot& p : pilots) spent += p.seconds;
   const double left = std::max(targets.budget - spent, 0.1 * targets.budget);
-  const double affordable = targets.budget > 0.0 ? finest.dp * std::pow(finest.seconds / left, 1.0 / (dimensions + 1)) : 0.0;
+  const double affordable =
+      targets.budget > 0.0 ? finest.dp * std::pow(finest.seconds / left, 1.0 / (dimensions + 1)) : 0.0;
   Choice choice;
   if (targets.accuracy > 0.0) {
     const double wanted = std::min(fit.dp_for(targets.accuracy), finest.dp);
     choice.accuracy_met = wanted > 0.0 && wanted >= affordable;
-    if (choice.accuracy_met) choice = {wanted, 0.0, 0.0, true, "the accuracy asked for"};
-    else if (targets.budget > 0.0) choice = {affordable, 0.0, 0.0, false, "all that the budget pays for; the accuracy asked for needs more"};
-    else throw Error(ErrorKind::input, "the run-up of the pilot runs scatters by " + number_text(100.0 * fit.scatter / fit.limit, 2) +
-                                           " % about a straight line in dp: no dp promises " + number_text(100.0 * targets.accuracy, 2) +
-                                           " %; a larger --accuracy, or --budget, is needed");
+    if (choice.accuracy_met)
+      choice = {wanted, 0.0, 0.0, true, "the accuracy asked for"};
+    else if (targets.budget > 0.0)
+      choice = {affordable, 0.0, 0.0, false, "all that the budget pays for; the accuracy asked for needs more"};
+    else
+      throw Error(ErrorKind::input,
+                  "the run-up of the pilot runs scatters by " + number_text(100.0 * fit.scatter / fit.limit, 2) +
+                      " % about a straight line in dp: no dp promises " + number_text(100.0 * targets.accuracy, 2) +
+                      " %; a larger --accuracy, or --budget, is needed");
   } else {
     choice = {affordable, 0.0, 0.0, true, "all that the budget pays for"};
   }

@@ -21,12 +21,15 @@ namespace fs = std::filesystem;
 /// A folder for files made before the case is; gone at the end.
 class Workspace {
  public:
-  explicit Workspace(const std::string& output) : folder_(fs::absolute(fs::path(output).lexically_normal()).parent_path()) {
+  explicit Workspace(const std::string& output)
+      : folder_(fs::absolute(fs::path(output).lexically_normal()).parent_path()) {
     if (fs::path(output).filename().empty()) folder_ = folder_.parent_path();
     folder_ /= ".mesh2particles-" + std::to_string(::getpid());
     std::error_code failed;
     fs::create_directories(folder_, failed);
-    if (failed) throw Error(ErrorKind::resource, folder_.parent_path().string() + ": cannot be written to (" + failed.message() + ")");
+    if (failed)
+      throw Error(ErrorKind::resource,
+                  folder_.parent_path().string() + ": cannot be written to (" + failed.message() + ")");
   }
   ~Workspace() {
     std::error_code ignored;
@@ -51,35 +54,41 @@ void tell(const Case& c, const geometry::BuildReport& report) {
   for (const auto& n : report.notes.done) cli::info(n);
   for (std::size_t k = 0; k < report.fills.size(); ++k) {
     const auto& f = report.fills[k];
-    std::string text = "fluid.fill." + std::to_string(k) + " (" + f.kind + "): " + std::to_string(f.particles) + " particles, " +
-                       number(f.volume) + unit + " (geometry: " + number(f.exact_volume) + unit;
-    if (f.kind == "level") text += ", surface " + number(f.surface_area) + (c.scene.dimensions == 2 ? " m" : " m2") + ", deepest " + number(f.level - f.lowest_ground) + " m";
+    std::string text = "fluid.fill." + std::to_string(k) + " (" + f.kind + "): " + std::to_string(f.particles) +
+                       " particles, " + number(f.volume) + unit + " (geometry: " + number(f.exact_volume) + unit;
+    if (f.kind == "level")
+      text += ", surface " + number(f.surface_area) + (c.scene.dimensions == 2 ? " m" : " m2") + ", deepest " +
+              number(f.level - f.lowest_ground) + " m";
     cli::info(text + ")");
   }
   for (const auto& s : report.slides) {
-    std::string text = "slide \"" + s.name + "\" (" + s.kind + "): " + number(s.volume) + unit + ", " + number(s.mass) + " kg";
+    std::string text =
+        "slide \"" + s.name + "\" (" + s.kind + "): " + number(s.volume) + unit + ", " + number(s.mass) + " kg";
     if (s.kind == "granular") {
-      text += ", " + std::to_string(s.grains) + " grains, porosity " + number(s.porosity) + ", largest overlap " + number(100.0 * s.largest_overlap) +
-              " % of a diameter, packed in " + number(s.seconds) + " s";
+      text += ", " + std::to_string(s.grains) + " grains, porosity " + number(s.porosity) + ", largest overlap " +
+              number(100.0 * s.largest_overlap) + " % of a diameter, packed in " + number(s.seconds) + " s";
       if (s.settled) {
-        text += "; settled under gravity for " + number(s.settled->settlement.time) + " s: fell by " + number(s.settled->fall) + " m (mean), porosity of the bed " +
-                number(s.settled->porosity);
+        text += "; settled under gravity for " + number(s.settled->settlement.time) + " s: fell by " +
+                number(s.settled->fall) + " m (mean), porosity of the bed " + number(s.settled->porosity);
       }
     }
     cli::info(text);
   }
-  cli::info("walls: " + std::to_string(c.boundary.position.size()) + " particles, " + std::to_string(c.walls.triangle.size()) +
-            " triangles; bodies: " + std::to_string(c.bodies.size()) + "; boundary grid: " + std::to_string(report.band_voxels) + " voxels");
+  cli::info("walls: " + std::to_string(c.boundary.position.size()) + " particles, " +
+            std::to_string(c.walls.triangle.size()) + " triangles; bodies: " + std::to_string(c.bodies.size()) +
+            "; boundary grid: " + std::to_string(report.band_voxels) + " voxels");
   if (norm(c.offset) > 0.0) {
     char text[120];
-    std::snprintf(text, sizeof text, "coordinates re-centred: scene = case + (%.10g, %.10g, %.10g) m", c.offset.x, c.offset.y, c.offset.z);
+    std::snprintf(text, sizeof text, "coordinates re-centred: scene = case + (%.10g, %.10g, %.10g) m", c.offset.x,
+                  c.offset.y, c.offset.z);
     cli::info(text);
   }
   for (const auto& [stage, seconds] : report.seconds) cli::detail(stage + ": " + number(seconds) + " s");
   for (const auto& w : report.notes.warnings) cli::warning(w);
 }
 
-nlohmann::ordered_json record_of(const std::string& path, const Case& c, const geometry::BuildReport& report, double seconds) {
+nlohmann::ordered_json record_of(const std::string& path, const Case& c, const geometry::BuildReport& report,
+                                 double seconds) {
   nlohmann::ordered_json r;
   r["record"] = "case";
   r["path"] = path;
@@ -96,14 +105,26 @@ nlohmann::ordered_json record_of(const std::string& path, const Case& c, const g
   r["water_volume"] = water;
   r["fills"] = nlohmann::ordered_json::array();
   for (const auto& f : report.fills) {
-    r["fills"].push_back({{"kind", f.kind}, {"particles", f.particles}, {"volume", f.volume}, {"exact_volume", f.exact_volume},
-                          {"surface_area", f.surface_area}, {"level", f.level + c.offset.z}});
+    r["fills"].push_back({{"kind", f.kind},
+                          {"particles", f.particles},
+                          {"volume", f.volume},
+                          {"exact_volume", f.exact_volume},
+                          {"surface_area", f.surface_area},
+                          {"level", f.level + c.offset.z}});
   }
   r["slides"] = nlohmann::ordered_json::array();
   for (const auto& s : report.slides) {
-    r["slides"].push_back({{"name", s.name}, {"kind", s.kind}, {"volume", s.volume}, {"mass", s.mass}, {"grains", s.grains},
-                           {"porosity", s.porosity}, {"largest_overlap", s.largest_overlap}});
-    if (s.settled) r["slides"].back().update({{"settling_time", s.settled->settlement.time}, {"fall", s.settled->fall}, {"bed_porosity", s.settled->porosity}});
+    r["slides"].push_back({{"name", s.name},
+                           {"kind", s.kind},
+                           {"volume", s.volume},
+                           {"mass", s.mass},
+                           {"grains", s.grains},
+                           {"porosity", s.porosity},
+                           {"largest_overlap", s.largest_overlap}});
+    if (s.settled)
+      r["slides"].back().update({{"settling_time", s.settled->settlement.time},
+                                 {"fall", s.settled->fall},
+                                 {"bed_porosity", s.settled->porosity}});
   }
   r["offset"] = {c.offset.x, c.offset.y, c.offset.z};
   r["warnings"] = report.notes.warnings.size();
@@ -113,7 +134,8 @@ nlohmann::ordered_json record_of(const std::string& path, const Case& c, const g
 
 /// An output that stands in the way is found before the work is done.
 void check_output(const MeshOptions& o) {
-  if (fs::exists(o.output) && !o.force) throw Error(ErrorKind::usage, o.output + ": exists already; --force replaces it");
+  if (fs::exists(o.output) && !o.force)
+    throw Error(ErrorKind::usage, o.output + ": exists already; --force replaces it");
 }
 
 /// Builds; where that fails, what was warned of before is said with it.

@@ -24,8 +24,10 @@ int check(const MeshOptions& o) {
     r["verdict"] = geometry::verdict_name(report.verdict);
     r["kind"] = report.kind;
     for (const auto& [name, value] : report.numbers) {
-      if (value == std::floor(value) && std::abs(value) < 1e15) r[name] = static_cast<long long>(value);
-      else r[name] = value;
+      if (value == std::floor(value) && std::abs(value) < 1e15)
+        r[name] = static_cast<long long>(value);
+      else
+        r[name] = value;
     }
     r["found"] = report.found;
     r["repair"] = report.repair;

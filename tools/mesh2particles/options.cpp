@@ -11,27 +11,27 @@ namespace po = boost::program_options;
 const char* const usage =
     "mesh2particles SCENE.toml [-o DIR.case] [options]\n"
     "mesh2particles --check FILE...\n"
-    "Turns a scene of terrain, water, slides and walls into particles: a case that gdesp-run runs. Ends with one record\n"
+    "Turns a scene of terrain, water, slides and walls into particles: a case that gdesp-run runs. Ends with one "
+    "record\n"
     "(NDJSON) on stdout that names the case.";
 
 const char* const example =
     "Example: mesh2particles lake.toml -o lake.case --set resolution.dp=4 | gdesp-run - -o lake.run\n";
 
-std::string default_output(const std::string& scene) {
-  return std::filesystem::path(scene).stem().string() + ".case";
-}
+std::string default_output(const std::string& scene) { return std::filesystem::path(scene).stem().string() + ".case"; }
 
 }  // namespace
 
 std::optional<MeshOptions> parse_options(const std::vector<std::string>& arguments) {
   po::options_description own("Options"), hidden, all;
-  own.add_options()
-      ("output,o", po::value<std::string>()->value_name("DIR.case"), "case folder to write; default: the scene's name with .case, here")
-      ("set", po::value<std::vector<std::string>>()->value_name("KEY=VALUE"), "overrides a key of the scene, e.g. resolution.dp=0.01; may be repeated")
-      ("force", "replace a case that exists")
-      ("check", "judge meshes and rasters: what is wrong, what repair would do; builds nothing; exit 3 when one is refused")
-      ("explain", "say what would be built (counts, memory, steps, cost), and build nothing")
-      ("preview", po::value<std::string>()->value_name("FILE.png|vtp"), "draw what was built");
+  own.add_options()("output,o", po::value<std::string>()->value_name("DIR.case"),
+                    "case folder to write; default: the scene's name with .case, here")(
+      "set", po::value<std::vector<std::string>>()->value_name("KEY=VALUE"),
+      "overrides a key of the scene, e.g. resolution.dp=0.01; may be repeated")("force", "replace a case that exists")(
+      "check",
+      "judge meshes and rasters: what is wrong, what repair would do; builds nothing; exit 3 when one is refused")(
+      "explain", "say what would be built (counts, memory, steps, cost), and build nothing")(
+      "preview", po::value<std::string>()->value_name("FILE.png|vtp"), "draw what was built");
   hidden.add_options()("input", po::value<std::vector<std::string>>(), "");
   const po::options_description common = cli::common_options();
   po::options_description shown;
@@ -49,7 +49,8 @@ std::optional<MeshOptions> parse_options(const std::vector<std::string>& argumen
     o.check = inputs;
     return o;
   }
-  if (inputs.size() > 1) throw Error(ErrorKind::usage, "one scene at a time; found \"" + inputs[0] + "\" and \"" + inputs[1] + "\"");
+  if (inputs.size() > 1)
+    throw Error(ErrorKind::usage, "one scene at a time; found \"" + inputs[0] + "\" and \"" + inputs[1] + "\"");
   o.scene = inputs.front();
   o.output = vm.count("output") ? vm["output"].as<std::string>() : default_output(o.scene);
   if (vm.count("set")) {
@@ -58,7 +59,8 @@ std::optional<MeshOptions> parse_options(const std::vector<std::string>& argumen
   if (vm.count("preview")) {
     o.preview = vm["preview"].as<std::string>();
     const std::string e = std::filesystem::path(o.preview).extension().string();
-    if (e != ".png" && e != ".vtp") throw Error(ErrorKind::usage, "--preview " + o.preview + ": expected a name ending in .png or .vtp");
+    if (e != ".png" && e != ".vtp")
+      throw Error(ErrorKind::usage, "--preview " + o.preview + ": expected a name ending in .png or .vtp");
   }
   o.force = vm.count("force") > 0;
   o.explain = vm.count("explain") > 0;

@@ -11,11 +11,11 @@
 namespace gdesp::tool {
 
 struct MeshOptions {
-  std::string scene;                    ///< TOML file
-  std::string output;                   ///< case folder
+  std::string scene;   ///< TOML file
+  std::string output;  ///< case folder
   std::vector<Override> overrides;
-  std::vector<std::string> check;       ///< files to judge instead of building
-  std::string preview;                  ///< PNG or VTP, or empty
+  std::vector<std::string> check;  ///< files to judge instead of building
+  std::string preview;             ///< PNG or VTP, or empty
   bool force = false, explain = false;
 };
 

@@ -9,8 +9,8 @@ namespace gdesp::tool {
 
 struct Command {
   const char* name;
-  const char* summary;                                   ///< one line for the list
-  int (*run)(const std::vector<std::string>& arguments); ///< after the command's name; returns the exit code
+  const char* summary;                                    ///< one line for the list
+  int (*run)(const std::vector<std::string>& arguments);  ///< after the command's name; returns the exit code
 };
 
 int run_runup(const std::vector<std::string>& arguments);

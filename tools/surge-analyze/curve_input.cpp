@@ -11,12 +11,14 @@ analysis::Table read_table_or_stdin(const std::string& path) {
   return path == "-" ? analysis::parse_table(std::cin, "standard input") : analysis::read_table(path);
 }
 
-analysis::Table choose_rows(const analysis::Table& table, const std::vector<std::string>& where, const std::string& option) {
+analysis::Table choose_rows(const analysis::Table& table, const std::vector<std::string>& where,
+                            const std::string& option) {
   analysis::Table chosen = table;
   for (const std::string& condition : where) {
     // "case=n2=2 a=2.25in": the column's name ends at the first '='.
     const auto equals = condition.find('=');
-    if (equals == std::string::npos || equals == 0) throw Error(ErrorKind::usage, option + " " + condition + ": valid is COLUMN=VALUE");
+    if (equals == std::string::npos || equals == 0)
+      throw Error(ErrorKind::usage, option + " " + condition + ": valid is COLUMN=VALUE");
     const std::size_t column = chosen.find(condition.substr(0, equals));
     const std::string wanted = condition.substr(equals + 1);
     std::vector<std::vector<analysis::Cell>> rows;

@@ -13,6 +13,7 @@ namespace gdesp::tool {
 /// A table from a file or, for "-", from standard input.
 analysis::Table read_table_or_stdin(const std::string& path);
 /// Keeps the rows whose column equals a value, for each "column=value". Throws Error(usage, input).
-analysis::Table choose_rows(const analysis::Table& table, const std::vector<std::string>& where, const std::string& option);
+analysis::Table choose_rows(const analysis::Table& table, const std::vector<std::string>& where,
+                            const std::string& option);
 
 }  // namespace gdesp::tool

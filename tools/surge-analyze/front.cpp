@@ -8,11 +8,14 @@ namespace gdesp::tool {
 
 int run_front(const std::vector<std::string>& arguments) {
   po::options_description own("Front");
-  own.add_options()("direction", po::value<std::string>()->value_name("DIR")->default_value("x"), "x, -x, y, -y or NX,NY");
+  own.add_options()("direction", po::value<std::string>()->value_name("DIR")->default_value("x"),
+                    "x, -x, y, -y or NX,NY");
   own.add_options()("fraction", po::value<double>()->value_name("F")->default_value(0.001, "0.001"),
                     "share of the fill that lies beyond the front");
-  own.add_options()("scale-length", po::value<double>()->value_name("M"), "L in x* and t* (default: height of the water at the start)");
-  own.add_options()("origin", po::value<double>()->value_name("M"), "x0 in x*, scene coordinates (default: the water's edge at the start)");
+  own.add_options()("scale-length", po::value<double>()->value_name("M"),
+                    "L in x* and t* (default: height of the water at the start)");
+  own.add_options()("origin", po::value<double>()->value_name("M"),
+                    "x0 in x*, scene coordinates (default: the water's edge at the start)");
   own.add_options()("reference", po::value<std::string>()->value_name("CSV"), "table drawn into the plot");
   own.add_options()("reference-t", po::value<std::string>()->value_name("COLUMN")->default_value("t_star"), "its t*");
   own.add_options()("reference-x", po::value<std::string>()->value_name("COLUMN")->default_value("x_star"), "its x*");
@@ -26,7 +29,8 @@ int run_front(const std::vector<std::string>& arguments) {
   analysis::FrontOptions options;
   options.direction = analysis::parse_direction(line.get<std::string>("direction"));
   options.fraction = line.get<double>("fraction");
-  if (!(options.fraction >= 0.0 && options.fraction < 1.0)) throw Error(ErrorKind::usage, "--fraction: 0 or more and below 1 is needed");
+  if (!(options.fraction >= 0.0 && options.fraction < 1.0))
+    throw Error(ErrorKind::usage, "--fraction: 0 or more and below 1 is needed");
   if (line.has("scale-length")) options.scale_length = line.get<double>("scale-length");
   if (line.has("origin")) options.origin = line.get<double>("origin");
   if (line.has("reference")) {

@@ -16,20 +16,20 @@ std::string usage_text() {
       "Tables and plots from the frames of a run. RUN is a run folder, frame files, or - for the records of a running\n"
       "gdesp-run. Tables go to stdout (TSV; --format csv|json), plots to --plot FILE.svg|.png|.pdf.\n\nCommands:\n";
   for (const auto& command : gdesp::tool::commands()) {
-    text += std::string("  ") + command.name + std::string(11 - std::string(command.name).size(), ' ') + command.summary + "\n";
+    text += std::string("  ") + command.name + std::string(11 - std::string(command.name).size(), ' ') +
+            command.summary + "\n";
   }
   return text + "\n\"surge-analyze COMMAND --help\" explains the command's definition and options.\n";
 }
 
 int run(const std::vector<std::string>& arguments) {
   const auto common = gdesp::cli::common_options();
-  if (arguments.empty()) {
-    throw gdesp::Error(gdesp::ErrorKind::usage, "no command; surge-analyze --help lists them");
-  }
+  if (arguments.empty()) { throw gdesp::Error(gdesp::ErrorKind::usage, "no command; surge-analyze --help lists them"); }
   if (arguments[0].empty() || arguments[0][0] == '-') {
     const auto vm = gdesp::cli::parse(arguments, common, {});
-    if (gdesp::cli::answer_help_or_version(vm, usage_text(), common,
-                                           "Example: gdesp-run lake.case -o lake.run | surge-analyze runup - > runup.tsv\n")) {
+    if (gdesp::cli::answer_help_or_version(
+            vm, usage_text(), common,
+            "Example: gdesp-run lake.case -o lake.run | surge-analyze runup - > runup.tsv\n")) {
       return 0;
     }
     throw gdesp::Error(gdesp::ErrorKind::usage, "no command; surge-analyze --help lists them");
@@ -40,8 +40,9 @@ int run(const std::vector<std::string>& arguments) {
     names.push_back(command.name);
   }
   const std::string near = gdesp::cli::did_you_mean(arguments[0], names);
-  throw gdesp::Error(gdesp::ErrorKind::usage, "unknown command " + arguments[0] +
-                                                  (near.empty() ? "" : "; did you mean " + near + "?") + " (see --help)");
+  throw gdesp::Error(
+      gdesp::ErrorKind::usage,
+      "unknown command " + arguments[0] + (near.empty() ? "" : "; did you mean " + near + "?") + " (see --help)");
 }
 
 }  // namespace

@@ -17,25 +17,30 @@ int run_map(const std::vector<std::string>& arguments) {
                     "depth that is wet, and departure of the level that is an arrival");
   CommandLine line("map", own);
   const char* definition =
-      "Maps over the domain, in the terrain's own coordinates (case coordinates + offset; its coordinate system, where the\n"
+      "Maps over the domain, in the terrain's own coordinates (case coordinates + offset; its coordinate system, where "
+      "the\n"
       "scene names one):\n"
       "  level_max  highest free surface over the cell, m (free surface: see profile --help)\n"
       "  depth_max  highest level minus the ground, m\n"
       "  arrival    first time the level departs from its first reading by the threshold, linear between frames; for\n"
       "             dry ground the first frame in which it is wet, s\n"
       "  run_up_line  outline of what was ever wet, as lines with the ground's elevation\n"
-      "Connected water only. Cells where nothing was are -9999. The run-up line is the inundation line (inland limit of\n"
-      "wetting) of the Tsunami Glossary, IOC Technical Series 85, UNESCO 2013; its arrival time is another one: that of the\n"
+      "Connected water only. Cells where nothing was are -9999. The run-up line is the inundation line (inland limit "
+      "of\n"
+      "wetting) of the Tsunami Glossary, IOC Technical Series 85, UNESCO 2013; its arrival time is another one: that "
+      "of the\n"
       "first maximum.\n";
   if (!line.parse(arguments, definition, "surge-analyze map lake.run -o maps/lake --plot maps/lake.png")) return 0;
   analysis::MapOptions options;
   options.cell = line.get<double>("cell");
   options.threshold = line.get<double>("threshold");
   analysis::MapMeasurement measurement(options);
-  if (!line.has("output") && !line.has("plot")) throw Error(ErrorKind::usage, "map: -o PREFIX (or --plot FILE) is needed");
+  if (!line.has("output") && !line.has("plot"))
+    throw Error(ErrorKind::usage, "map: -o PREFIX (or --plot FILE) is needed");
   const int code = run_measurement(line, measurement);
   if (line.has("output")) {
-    for (const std::string& path : analysis::write_maps(measurement, line.get<std::string>("output"), line.has("ascii"))) {
+    for (const std::string& path :
+         analysis::write_maps(measurement, line.get<std::string>("output"), line.has("ascii"))) {
       cli::info("map: " + path);
     }
   }

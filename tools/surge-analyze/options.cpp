@@ -22,12 +22,15 @@ po::options_description input_options() {
   po::options_description o("Input");
   o.add_options()("input", po::value<std::vector<std::string>>()->value_name("RUN")->default_value({}, ""),
                   "run folder, frame files of this or another program, or - for records on standard input");
-  o.add_options()("case", po::value<std::string>()->value_name("FOLDER"), "case of the run, where the run does not say");
+  o.add_options()("case", po::value<std::string>()->value_name("FOLDER"),
+                  "case of the run, where the run does not say");
   o.add_options()("field", po::value<std::vector<std::string>>()->value_name("OURS=THEIRS"),
                   "name of a field in another program's files, e.g. velocity=Vel; may be repeated");
   o.add_options()("dp", po::value<double>()->value_name("M"), "particle spacing, where the files do not carry it");
-  o.add_options()("dimensions", po::value<int>()->value_name("2|3"), "for files without a case (default: from the data)");
-  o.add_options()("still-water", po::value<double>()->value_name("M"), "still-water elevation, scene coordinates (default: the case's)");
+  o.add_options()("dimensions", po::value<int>()->value_name("2|3"),
+                  "for files without a case (default: from the data)");
+  o.add_options()("still-water", po::value<double>()->value_name("M"),
+                  "still-water elevation, scene coordinates (default: the case's)");
   o.add_options()("from", po::value<double>()->value_name("S"), "first time");
   o.add_options()("until", po::value<double>()->value_name("S"), "last time");
   o.add_options()("every", po::value<int>()->value_name("N")->default_value(1), "take every N-th frame");
@@ -38,12 +41,14 @@ po::options_description input_options() {
 
 po::options_description output_options() {
   po::options_description o("Output");
-  o.add_options()("format", po::value<std::string>()->value_name("tsv|csv|json")->default_value("tsv"), "of the table on stdout");
+  o.add_options()("format", po::value<std::string>()->value_name("tsv|csv|json")->default_value("tsv"),
+                  "of the table on stdout");
   o.add_options()("plot", po::value<std::string>()->value_name("FILE"), "draw the result: FILE.svg, .png or .pdf");
   return o;
 }
 
-CommandLine::CommandLine(const std::string& command, const po::options_description& own, Inputs inputs) : name(command) {
+CommandLine::CommandLine(const std::string& command, const po::options_description& own, Inputs inputs)
+    : name(command) {
   all.add(own);
   if (inputs == Inputs::frames) all.add(input_options());
   all.add(output_options()).add(cli::common_options());
@@ -79,7 +84,8 @@ analysis::SourceOptions source_options(const CommandLine& line) {
   }
   if (line.has("dp")) {
     s.dp = line.get<double>("dp");
-    if (!(s.dp > 0.0)) throw Error(ErrorKind::usage, "--dp " + analysis::format_number(s.dp) + ": a length above 0 m is needed");
+    if (!(s.dp > 0.0))
+      throw Error(ErrorKind::usage, "--dp " + analysis::format_number(s.dp) + ": a length above 0 m is needed");
   }
   if (line.has("dimensions")) {
     s.dimensions = line.get<int>("dimensions");
@@ -108,9 +114,7 @@ std::function<int(const std::vector<std::string>&)> until_reader_leaves(
   return [body = std::move(body)](const std::vector<std::string>& arguments) {
     try {
       return body(arguments);
-    } catch (const ReaderGone&) {
-      return 0;
-    }
+    } catch (const ReaderGone&) { return 0; }
   };
 }
 
@@ -140,11 +144,14 @@ int run_measurement(const CommandLine& line, analysis::Measurement& measurement)
   }
   if (cli::interrupted()) return 130;
   if (source.cut_short()) {
-    cli::warning("the records ended without the producer's last word (done, interrupted or failed): it was killed; the table ends with its last frame");
+    cli::warning(
+        "the records ended without the producer's last word (done, interrupted or failed): it was killed; the table "
+        "ends with its last frame");
     return static_cast<int>(ErrorKind::numerical);
   }
   if (!source.failed()) return 0;
-  cli::warning("the run failed" + (source.failure().empty() ? "" : ": " + source.failure()) + "; the table ends with its last frame");
+  cli::warning("the run failed" + (source.failure().empty() ? "" : ": " + source.failure()) +
+               "; the table ends with its last frame");
   return static_cast<int>(ErrorKind::numerical);
 }
 

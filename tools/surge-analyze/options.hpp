@@ -21,7 +21,7 @@ po::options_description output_options();
 
 /// Input, output and common options in one, with those of the command first.
 struct CommandLine {
-  enum class Inputs { frames, own };     ///< whether the command reads frames, or names its inputs itself
+  enum class Inputs { frames, own };  ///< whether the command reads frames, or names its inputs itself
   CommandLine(const std::string& name, const po::options_description& own, Inputs inputs = Inputs::frames);
   /// False when --help or --version has been answered. `definition` explains what is measured; `positional`: the
   /// option that takes the words without a name.
@@ -29,7 +29,9 @@ struct CommandLine {
              const char* positional = "input");
 
   template <class T>
-  T get(const char* key) const { return vm[key].as<T>(); }
+  T get(const char* key) const {
+    return vm[key].as<T>();
+  }
   bool has(const char* key) const { return vm.count(key) > 0; }
 
   std::string name;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Curves of several tables in one figure: runs against each other and against measurements.
+#include "analysis/plot.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "analysis/plot.hpp"
 #include "command.hpp"
 #include "core/error.hpp"
 #include "curve_input.hpp"
@@ -21,29 +22,39 @@ po::options_description own_options() {
   own.add_options()("x", po::value<std::string>()->value_name("COLUMN")->default_value("t"), "");
   own.add_options()("y", po::value<Texts>()->value_name("COLUMN"), "may be repeated: a curve each");
   own.add_options()("by", po::value<std::string>()->value_name("COLUMN"), "a curve for each value of this column");
-  own.add_options()("label", po::value<Texts>()->value_name("TEXT"), "of a table, in their order; default: the file's name");
-  own.add_options()("y-name", po::value<Texts>()->value_name("TEXT"), "of a --y, in their order; default: the column's name");
+  own.add_options()("label", po::value<Texts>()->value_name("TEXT"),
+                    "of a table, in their order; default: the file's name");
+  own.add_options()("y-name", po::value<Texts>()->value_name("TEXT"),
+                    "of a --y, in their order; default: the column's name");
   own.add_options()("where", po::value<Texts>()->value_name("COLUMN=VALUE"), "rows of the tables; may be repeated");
-  own.add_options()("scale-x", po::value<double>()->value_name("F")->default_value(1.0, "1"), "x of the tables is multiplied by this");
-  own.add_options()("scale-y", po::value<double>()->value_name("F")->default_value(1.0, "1"), "y of the tables is multiplied by this");
+  own.add_options()("scale-x", po::value<double>()->value_name("F")->default_value(1.0, "1"),
+                    "x of the tables is multiplied by this");
+  own.add_options()("scale-y", po::value<double>()->value_name("F")->default_value(1.0, "1"),
+                    "y of the tables is multiplied by this");
   own.add_options()("points", "marks instead of lines");
   own.add_options()("name", po::value<std::string>()->value_name("COLUMN"), "text beside each mark");
   own.add_options()("reference", po::value<Texts>()->value_name("TABLE"), "measurements, as marks; may be repeated");
   own.add_options()("ref-x", po::value<std::string>()->value_name("COLUMN"), "their x (default: as --x)");
   own.add_options()("ref-y", po::value<Texts>()->value_name("COLUMN"), "their y (default: as --y); may be repeated");
-  own.add_options()("ref-where", po::value<Texts>()->value_name("COLUMN=VALUE"), "rows of the measurements; may be repeated");
-  own.add_options()("ref-label", po::value<Texts>()->value_name("TEXT"), "of a curve of the measurements, in their order");
+  own.add_options()("ref-where", po::value<Texts>()->value_name("COLUMN=VALUE"),
+                    "rows of the measurements; may be repeated");
+  own.add_options()("ref-label", po::value<Texts>()->value_name("TEXT"),
+                    "of a curve of the measurements, in their order");
   po::options_description axes("Axes");
-  axes.add_options()("x-label", po::value<std::string>()->value_name("TEXT"), "with its unit; default: the column's name");
-  axes.add_options()("y-label", po::value<std::string>()->value_name("TEXT"), "with its unit; default: the column's name");
+  axes.add_options()("x-label", po::value<std::string>()->value_name("TEXT"),
+                     "with its unit; default: the column's name");
+  axes.add_options()("y-label", po::value<std::string>()->value_name("TEXT"),
+                     "with its unit; default: the column's name");
   axes.add_options()("x-range", po::value<std::string>()->value_name("LOW,HIGH"), "");
   axes.add_options()("y-range", po::value<std::string>()->value_name("LOW,HIGH"), "");
   axes.add_options()("log-x", "logarithmic");
   axes.add_options()("log-y", "logarithmic");
   axes.add_options()("equal", "one unit is as long on both axes");
   axes.add_options()("title", po::value<std::string>()->value_name("TEXT")->default_value(""), "");
-  axes.add_options()("note", po::value<std::string>()->value_name("TEXT")->default_value(""), "small print below the title");
-  axes.add_options()("height", po::value<double>()->value_name("MM")->default_value(95.0, "95"), "of the figure, without the legend; its width is 160 mm");
+  axes.add_options()("note", po::value<std::string>()->value_name("TEXT")->default_value(""),
+                     "small print below the title");
+  axes.add_options()("height", po::value<double>()->value_name("MM")->default_value(95.0, "95"),
+                     "of the figure, without the legend; its width is 160 mm");
   own.add(axes);
   return own;
 }
@@ -60,7 +71,11 @@ std::string text_of(const analysis::Cell& cell) {
   return number ? analysis::format_number(*number) : std::get<std::string>(cell);
 }
 
-struct Style { analysis::MarkStyle mark; std::string name_column; double scale_x = 1.0, scale_y = 1.0; };
+struct Style {
+  analysis::MarkStyle mark;
+  std::string name_column;
+  double scale_x = 1.0, scale_y = 1.0;
+};
 
 /// One series of a table: the rows whose `by` column has the value (all where `by` is empty).
 analysis::Series series_of(const analysis::Table& table, const std::string& x, const std::string& y, const Style& style,
@@ -72,7 +87,8 @@ analysis::Series series_of(const analysis::Table& table, const std::string& x, c
     if (!by.empty() && text_of(table.row[k][table.find(by)]) != value) continue;
     s.x.push_back(all_x[k] * style.scale_x);
     s.y.push_back(all_y[k] * style.scale_y);
-    if (!style.name_column.empty()) s.name.push_back(analysis::plain_text(text_of(table.row[k][table.find(style.name_column)])));
+    if (!style.name_column.empty())
+      s.name.push_back(analysis::plain_text(text_of(table.row[k][table.find(style.name_column)])));
   }
   return s;
 }
@@ -90,8 +106,11 @@ class Curves {
       const std::string label = k < labels.size() ? labels[k] : base_name(tables[k]);
       for (std::size_t j = 0; j < y.size(); ++j) {
         const std::string name = j < y_names.size() ? y_names[j] : y[j].substr(0, y[j].find('['));
-        add(table, y[j], style, {y.size() == 1 ? label : tables.size() == 1 && labels.empty() ? name : label + ", " + name,
-                                 tables.size() == 1 && y.size() == 1 && labels.empty()});
+        add(table, y[j], style,
+            {y.size() == 1                          ? label
+             : tables.size() == 1 && labels.empty() ? name
+                                                    : label + ", " + name,
+             tables.size() == 1 && y.size() == 1 && labels.empty()});
       }
     }
     add_references();
@@ -99,15 +118,21 @@ class Curves {
   }
 
   Texts texts(const char* key) const { return line_.has(key) ? line_.get<Texts>(key) : Texts{}; }
-  std::string text(const char* key, const std::string& otherwise) const { return line_.has(key) ? line_.get<std::string>(key) : otherwise; }
+  std::string text(const char* key, const std::string& otherwise) const {
+    return line_.has(key) ? line_.get<std::string>(key) : otherwise;
+  }
 
  private:
-  struct Label { std::string text; bool alone; };
+  struct Label {
+    std::string text;
+    bool alone;
+  };
 
   void add(const analysis::Table& table, const std::string& y, const Style& style, const Label& label) {
     const std::string by = text("by", ""), x = line_.get<std::string>("x");
     Texts values;
-    if (by.empty()) values.push_back("");
+    if (by.empty())
+      values.push_back("");
     else {
       for (const auto& row : table.row) {
         const std::string value = text_of(row[table.find(by)]);
@@ -161,7 +186,8 @@ void print(const std::vector<analysis::Series>& series, const CommandLine& line)
       if (std::isfinite(y)) low = std::min(low, y), high = std::max(high, y), ++count;
     }
     const double none = std::numeric_limits<double>::quiet_NaN();
-    writer.row({s.label, count, s.x.empty() ? none : s.x.front(), s.x.empty() ? none : s.x.back(), count > 0 ? low : none, count > 0 ? high : none});
+    writer.row({s.label, count, s.x.empty() ? none : s.x.front(), s.x.empty() ? none : s.x.back(),
+                count > 0 ? low : none, count > 0 ? high : none});
   }
   writer.finish();
 }
@@ -171,11 +197,14 @@ void print(const std::vector<analysis::Series>& series, const CommandLine& line)
 int run_plot(const std::vector<std::string>& arguments) {
   CommandLine line("plot", own_options(), CommandLine::Inputs::own);
   const char* definition =
-      "Draws columns of tables, as the other commands print them, in one figure: several runs, with measurements as black\n"
+      "Draws columns of tables, as the other commands print them, in one figure: several runs, with measurements as "
+      "black\n"
       "marks. Nothing is computed but the two factors --scale-x and --scale-y. Labels take gnuplot's enhanced text in\n"
       "titles and axes (x_0, m^3); names of files and columns stand as they are. Prints what was drawn.\n";
-  if (!line.parse(arguments, definition,
-                  "surge-analyze plot coarse.tsv fine.tsv --x 't*' --y 'x*' --label 'H/20' --label 'H/40' --plot fronts.pdf", "table")) {
+  if (!line.parse(
+          arguments, definition,
+          "surge-analyze plot coarse.tsv fine.tsv --x 't*' --y 'x*' --label 'H/20' --label 'H/40' --plot fronts.pdf",
+          "table")) {
     return 0;
   }
   Curves curves(line);

@@ -28,14 +28,18 @@ void require_display(const std::vector<std::string>& arguments) {
   for (std::string& w : words) raw.push_back(w.data());
   raw.push_back(nullptr);
   ::execvp(raw[0], raw.data());
-  throw Error(ErrorKind::resource, "render draws through X, and there is neither a display (DISPLAY) nor xvfb-run "
-                                   "(packages xvfb and xauth)");
+  throw Error(ErrorKind::resource,
+              "render draws through X, and there is neither a display (DISPLAY) nor xvfb-run "
+              "(packages xvfb and xauth)");
 }
 
 std::string output_path(const CommandLine& line) {
-  std::string path = line.has("output") ? line.get<std::string>("output") : line.has("plot") ? line.get<std::string>("plot") : "";
+  std::string path = line.has("output") ? line.get<std::string>("output")
+                     : line.has("plot") ? line.get<std::string>("plot")
+                                        : "";
   if (path.size() < 5 || path.substr(path.size() - 4) != ".png") {
-    throw Error(ErrorKind::usage, "-o " + (path.empty() ? std::string("is missing") : path) + ": a name that ends in .png is needed");
+    throw Error(ErrorKind::usage,
+                "-o " + (path.empty() ? std::string("is missing") : path) + ": a name that ends in .png is needed");
   }
   return path;
 }
@@ -51,8 +55,10 @@ Frame choose_frame(analysis::FrameSource& source, const CommandLine& line) {
     } else {
       for (const Vec3f& v : frame->fluid.velocity) score += dot(v, v);
     }
-    if (score > best_score || !best) best_score = score, best = std::move(*frame);
-    else if (line.has("time")) break;  // times only grow
+    if (score > best_score || !best)
+      best_score = score, best = std::move(*frame);
+    else if (line.has("time"))
+      break;  // times only grow
   }
   return std::move(*best);
 }
@@ -62,17 +68,22 @@ Frame choose_frame(analysis::FrameSource& source, const CommandLine& line) {
 int run_render(const std::vector<std::string>& arguments) {
   po::options_description own("Picture");
   own.add_options()("output,o", po::value<std::string>()->value_name("FILE.png"), "the picture (--plot does the same)");
-  own.add_options()("time,t", po::value<double>()->value_name("S"), "the nearest frame (default: when the water has most kinetic energy)");
+  own.add_options()("time,t", po::value<double>()->value_name("S"),
+                    "the nearest frame (default: when the water has most kinetic energy)");
   own.add_options()("size", po::value<std::string>()->value_name("W,H")->default_value("1600,900"), "pixels");
-  own.add_options()("azimuth", po::value<double>()->value_name("DEG"), "where the camera stands, clockwise from +y (default: facing the slide)");
-  own.add_options()("elevation", po::value<double>()->value_name("DEG")->default_value(44.0, "44"), "of the camera above the horizontal");
+  own.add_options()("azimuth", po::value<double>()->value_name("DEG"),
+                    "where the camera stands, clockwise from +y (default: facing the slide)");
+  own.add_options()("elevation", po::value<double>()->value_name("DEG")->default_value(44.0, "44"),
+                    "of the camera above the horizontal");
   own.add_options()("zoom", po::value<double>()->value_name("F")->default_value(1.0, "1"), "above 1: closer");
-  own.add_options()("speed-max", po::value<double>()->value_name("M/S")->default_value(0.0, "chosen"), "end of the colour scale");
+  own.add_options()("speed-max", po::value<double>()->value_name("M/S")->default_value(0.0, "chosen"),
+                    "end of the colour scale");
   own.add_options()("exaggeration", po::value<double>()->value_name("F")->default_value(1.0, "1"), "of heights");
   own.add_options()("title", po::value<std::string>()->value_name("TEXT")->default_value(""), "default: the scene's");
   CommandLine line("render", own);
   const char* definition =
-      "One picture in three dimensions: terrain shaded, with contour lines and the still-water shore; the water's surface\n"
+      "One picture in three dimensions: terrain shaded, with contour lines and the still-water shore; the water's "
+      "surface\n"
       "(see surface --help) coloured by speed; grains and bodies in orange. Without a display the program runs itself\n"
       "under xvfb-run.\n";
   if (!line.parse(arguments, definition, "surge-analyze render lake.run -o lake.png --time 25 --azimuth 210")) return 0;

@@ -22,10 +22,12 @@ int run_runup(const std::vector<std::string>& arguments) {
       "Run-up R(t): the highest point of the connected water that lies on a bank, above still water:\n"
       "  R = max (z + dp/2) - z_still\n"
       "over the particles of the main body that are within 2.6 dp of a wall at rest. Connected: chains of neighbours\n"
-      "closer than 1.5 dp, sheets at least one particle thick (Ester et al. 1996), and the film that their edge thins to:\n"
+      "closer than 1.5 dp, sheets at least one particle thick (Ester et al. 1996), and the film that their edge thins "
+      "to:\n"
       "single particles on the wall within 2.6 dp of those before them; drops, spray and torn water are splash, in a\n"
       "column of their own. Still water reads 0. The reading resolves dp. Run-up as in Synolakis 1987,\n"
-      "J. Fluid Mech. 185, 523, doi 10.1017/S002211208700329X. Regions: the scene's, else near and far bank: the sides\n"
+      "J. Fluid Mech. 185, 523, doi 10.1017/S002211208700329X. Regions: the scene's, else near and far bank: the "
+      "sides\n"
       "of the lake's long axis, seen from the slide. x, y, z are the scene's own coordinates.\n";
   if (!line.parse(arguments, definition, "surge-analyze runup lake.run --plot runup.svg > runup.tsv")) return 0;
   analysis::RunUpOptions options;

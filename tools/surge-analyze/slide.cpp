@@ -8,11 +8,14 @@ namespace gdesp::tool {
 
 int run_slide(const std::vector<std::string>& arguments) {
   po::options_description own("Slide");
-  own.add_options()("direction", po::value<std::string>()->value_name("DIR"), "x, -x, y, -y or NX,NY (default: towards the lake's middle)");
-  own.add_options()("fraction", po::value<double>()->value_name("F")->default_value(0.001, "0.001"), "share of the slide beyond its front");
+  own.add_options()("direction", po::value<std::string>()->value_name("DIR"),
+                    "x, -x, y, -y or NX,NY (default: towards the lake's middle)");
+  own.add_options()("fraction", po::value<double>()->value_name("F")->default_value(0.001, "0.001"),
+                    "share of the slide beyond its front");
   CommandLine line("slide", own);
   const char* definition =
-      "Centre of mass and its velocity (grains: mass-weighted; rigid body: centre of its closed surface, velocity from the\n"
+      "Centre of mass and its velocity (grains: mass-weighted; rigid body: centre of its closed surface, velocity from "
+      "the\n"
       "frame before); travel of the front since the first frame (the place beyond which a stated fraction lies);\n"
       "submerged: share of the solids' volume below the free surface over it (spherical caps at the water line).\n"
       "Experiments with granular slides: cf. McFall and Fritz 2016, Proc. R. Soc. A 472, 20160052, doi\n"

@@ -20,7 +20,8 @@ class SurfaceExport : public analysis::Measurement {
   std::vector<std::string> begin(const analysis::RunInfo& info) override {
     info_ = info;
     info_.walls = {};
-    if (info.dimensions == 2) throw Error(ErrorKind::input, info.name + ": a surface needs a run in three dimensions; see profile");
+    if (info.dimensions == 2)
+      throw Error(ErrorKind::input, info.name + ": a surface needs a run in three dimensions; see profile");
     std::filesystem::create_directories(folder_);
     return {"t[s]", "file", "triangles", "volume[m3]"};
   }
@@ -81,20 +82,26 @@ class SurfaceExport : public analysis::Measurement {
 
 int run_surface(const std::vector<std::string>& arguments) {
   po::options_description own("Surface");
-  own.add_options()("output,o", po::value<std::string>()->value_name("FOLDER"), "where surface_00000.vtp ... go (made if missing)");
+  own.add_options()("output,o", po::value<std::string>()->value_name("FOLDER"),
+                    "where surface_00000.vtp ... go (made if missing)");
   own.add_options()("vdb", "also the level set as surface_00000.vdb (OpenVDB, scene coordinates)");
   own.add_options()("voxel", po::value<double>()->value_name("M")->default_value(0.0, "dp/2"), "of the level set");
   own.add_options()("connected", "the connected water only, without splash");
   CommandLine line("surface", own);
   const char* definition =
-      "Free surface as triangles with velocity and speed at the vertices. Every particle is a ball of radius 1.3 dp; the signed\n"
-      "distance to their union, smoothed over 27 voxels, is moved inwards by 0.72 dp: a closing (J. Serra 1982, Image Analysis\n"
-      "and Mathematical Morphology, Academic Press), which joins what is up to 2.6 dp apart and puts still water's surface\n"
-      "where profile reads it, within 0.1 dp. Sparse level set and triangles: OpenVDB (K. Museth 2013, ACM Trans. Graph. 32,\n"
+      "Free surface as triangles with velocity and speed at the vertices. Every particle is a ball of radius 1.3 dp; "
+      "the signed\n"
+      "distance to their union, smoothed over 27 voxels, is moved inwards by 0.72 dp: a closing (J. Serra 1982, Image "
+      "Analysis\n"
+      "and Mathematical Morphology, Academic Press), which joins what is up to 2.6 dp apart and puts still water's "
+      "surface\n"
+      "where profile reads it, within 0.1 dp. Sparse level set and triangles: OpenVDB (K. Museth 2013, ACM Trans. "
+      "Graph. 32,\n"
       "27, doi 10.1145/2487228.2487235). VTP coordinates are the case's (offset as field data), VDB the scene's.\n";
   if (!line.parse(arguments, definition, "surge-analyze surface lake.run -o lake.surface --every 5 --vdb")) return 0;
   if (!line.has("output")) throw Error(ErrorKind::usage, "surface: -o FOLDER is needed");
-  SurfaceExport measurement(line.get<std::string>("output"), line.has("vdb"), line.get<double>("voxel"), !line.has("connected"));
+  SurfaceExport measurement(line.get<std::string>("output"), line.has("vdb"), line.get<double>("voxel"),
+                            !line.has("connected"));
   return run_measurement(line, measurement);
 }
 

@@ -27,7 +27,8 @@ struct Point {
 Point measure_run(const CommandLine& line, const std::string& run, double reference) {
   const auto record = analysis::read_run_record(run);
   if (!record || record->simulated <= 0.0) {
-    throw Error(ErrorKind::input, run + ": no run.json with wall_seconds and t; its cost is not known (give it through --points)");
+    throw Error(ErrorKind::input,
+                run + ": no run.json with wall_seconds and t; its cost is not known (give it through --points)");
   }
   analysis::SourceOptions source = source_options(line);
   source.inputs = {run};
@@ -45,8 +46,10 @@ Point measure_run(const CommandLine& line, const std::string& run, double refere
 
 std::string spacing(double metres) {
   char text[32];
-  if (metres < 0.1) std::snprintf(text, sizeof text, "%.3g mm", 1e3 * metres);
-  else std::snprintf(text, sizeof text, "%.3g m", metres);
+  if (metres < 0.1)
+    std::snprintf(text, sizeof text, "%.3g mm", 1e3 * metres);
+  else
+    std::snprintf(text, sizeof text, "%.3g m", metres);
   return text;
 }
 
@@ -88,8 +91,9 @@ analysis::Figure draw(const std::vector<Point>& points, const std::vector<bool>&
   best.colour = 6;
   std::vector<std::size_t> by_cost(points.size());
   for (std::size_t k = 0; k < points.size(); ++k) by_cost[k] = k;
-  std::sort(by_cost.begin(), by_cost.end(), [&](std::size_t a, std::size_t b) { return points[a].cost < points[b].cost; });
-  const double floor = 1e-3;  // %, a logarithmic axis has no zero
+  std::sort(by_cost.begin(), by_cost.end(),
+            [&](std::size_t a, std::size_t b) { return points[a].cost < points[b].cost; });
+  const double floor = 1e-3;                      // %, a logarithmic axis has no zero
   std::vector<bool> named(points.size(), false);  // on the front, and not on top of the name before
   double last_cost = 0.0;
   for (const std::size_t k : by_cost) {
@@ -127,21 +131,28 @@ analysis::Figure draw(const std::vector<Point>& points, const std::vector<bool>&
 
 int run_tradeoff(const std::vector<std::string>& arguments) {
   po::options_description own("Trade-off");
-  own.add_options()("quantity", po::value<std::string>()->value_name("Q")->default_value("runup"), analysis::quantity_help());
+  own.add_options()("quantity", po::value<std::string>()->value_name("Q")->default_value("runup"),
+                    analysis::quantity_help());
   own.add_options()("reference", po::value<double>()->value_name("VALUE"), "what the quantity should be");
   own.add_options()("points", po::value<std::vector<std::string>>()->value_name("TABLE"),
-                    "points of other programs or earlier studies: columns name, error[%], cost[s/s] and, where known, group, source, dp[m], N");
+                    "points of other programs or earlier studies: columns name, error[%], cost[s/s] and, where known, "
+                    "group, source, dp[m], N");
   own.add_options()("title", po::value<std::string>()->value_name("TEXT"), "of the chart");
   CommandLine line("tradeoff", own);
   const char* definition =
-      "Error against cost. Each run is a point: error, the share by which its quantity differs from the reference, in %; cost,\n"
+      "Error against cost. Each run is a point: error, the share by which its quantity differs from the reference, in "
+      "%; cost,\n"
       "wall seconds per simulated second (run.json); N, the paper's score n t / T. On the Pareto front (yes) are the\n"
       "points that no other beats in both error and cost (Ehrgott 2005, Multicriteria Optimization, Springer, doi\n"
       "10.1007/3-540-27659-9).\n";
-  if (!line.parse(arguments, definition, "surge-analyze tradeoff dp*.run --quantity runup --reference 0.28 --points others.tsv --plot tradeoff.svg")) return 0;
+  if (!line.parse(
+          arguments, definition,
+          "surge-analyze tradeoff dp*.run --quantity runup --reference 0.28 --points others.tsv --plot tradeoff.svg"))
+    return 0;
   std::vector<Point> points;
   const auto runs = line.get<std::vector<std::string>>("input");
-  if (!runs.empty() && !line.has("reference")) throw Error(ErrorKind::usage, "tradeoff: --reference VALUE is needed for runs");
+  if (!runs.empty() && !line.has("reference"))
+    throw Error(ErrorKind::usage, "tradeoff: --reference VALUE is needed for runs");
   points.reserve(runs.size());
   for (const std::string& run : runs) points.push_back(measure_run(line, run, line.get<double>("reference")));
   if (line.has("points")) {
@@ -159,7 +170,8 @@ int run_tradeoff(const std::vector<std::string>& arguments) {
   }
   writer.finish();
   if (line.has("plot")) {
-    const std::string title = line.has("title") ? line.get<std::string>("title") : "Error against cost, " + line.get<std::string>("quantity");
+    const std::string title =
+        line.has("title") ? line.get<std::string>("title") : "Error against cost, " + line.get<std::string>("quantity");
     analysis::write_figure(draw(points, front, analysis::plain_text(title)), line.get<std::string>("plot"));
   }
   return 0;

@@ -22,8 +22,8 @@ std::vector<DeviceInfo> cuda_devices() {
   for (int k = 0; k < count; ++k) {
     cudaDeviceProp properties;
     if (cudaGetDeviceProperties(&properties, k) != cudaSuccess) continue;
-    devices.push_back({k, properties.name, static_cast<double>(properties.totalGlobalMem),
-                       10 * properties.major + properties.minor});
+    devices.push_back(
+        {k, properties.name, static_cast<double>(properties.totalGlobalMem), 10 * properties.major + properties.minor});
   }
   return devices;
 }

@@ -2,11 +2,12 @@
 // Device versions of the verbs of exec/parallel.hpp. Everything is ordered on the back end's stream.
 #pragma once
 
+#include <thrust/iterator/counting_iterator.h>
+#include <thrust/iterator/transform_iterator.h>
+
 #include <cub/device/device_radix_sort.cuh>
 #include <cub/device/device_reduce.cuh>
 #include <cub/device/device_scan.cuh>
-#include <thrust/iterator/counting_iterator.h>
-#include <thrust/iterator/transform_iterator.h>
 
 #include "exec/cuda/check.cuh"
 #include "exec/lanes.hpp"
@@ -33,7 +34,9 @@ struct DeviceLanes {
     if ((lane & 3) == 0) p[lane >> 2] = a;
   }
   __device__ bool any(bool m) const { return __any_sync(half_mask, m) != 0; }
-  __device__ unsigned bits(bool m) const { return (__ballot_sync(half_mask, m) >> (half_mask & 0xffffu ? 0 : 16)) & 0xffffu; }
+  __device__ unsigned bits(bool m) const {
+    return (__ballot_sync(half_mask, m) >> (half_mask & 0xffffu ? 0 : 16)) & 0xffffu;
+  }
   template <class Visit>
   __device__ void for_each_bit(unsigned b, const Visit& visit) const {
     if ((b >> lane) & 1u) visit(lane);
@@ -55,8 +58,8 @@ struct DeviceRowLanes {
   using Real = float;
   using Int = std::int32_t;
   using Mask = bool;
-  int lane;                ///< 0..7
-  unsigned quarter_mask;   ///< of this quarter of the warp
+  int lane;               ///< 0..7
+  unsigned quarter_mask;  ///< of this quarter of the warp
 
   __device__ Real load(const float* p) const { return p[lane]; }
   __device__ Int load(const std::int32_t* p) const { return p[lane]; }
@@ -110,8 +113,8 @@ __global__ void __launch_bounds__(block_threads) run_pair_pass(const Body body, 
 }
 
 template <class Body>
-__global__ void __launch_bounds__(block_threads) run_row_pass(const Body body, Index rows, const Gate gate,
-                                                              Largest* largest) {
+__global__ void __launch_bounds__(block_threads)
+    run_row_pass(const Body body, Index rows, const Gate gate, Largest* largest) {
   if (gate.closed()) {
     if (blockIdx.x == 0 && threadIdx.x == 0) *largest = *gate.after;
     return;
@@ -199,8 +202,8 @@ inline void sort_pairs(const Cuda& exec, const char* name, SortedPairs& pairs, I
   std::size_t bytes = 0;
   cub::DeviceRadixSort::SortPairs(nullptr, bytes, key_buffer, value_buffer, count, 0, bits, detail::stream(exec));
   void* scratch = detail::cub_scratch(exec, bytes);
-  check(cub::DeviceRadixSort::SortPairs(scratch, bytes, key_buffer, value_buffer, count, 0, bits,
-                                        detail::stream(exec)), name);
+  check(cub::DeviceRadixSort::SortPairs(scratch, bytes, key_buffer, value_buffer, count, 0, bits, detail::stream(exec)),
+        name);
   pairs = {key_buffer.Current(), value_buffer.Current(), key_buffer.Alternate(), value_buffer.Alternate()};
 }
 

@@ -46,7 +46,9 @@ struct Maker {
       if (!inside) wall(r, 0, static_cast<float>(0.5 * dp));
     });
     const double w = three ? size.y : 1.0;
-    const auto quad = [&](const Vec3d& a, const Vec3d& b, const Vec3d& d, const Vec3d& e, std::int32_t body) { test::add_rectangle(c.walls, a, b, d, e, body); };
+    const auto quad = [&](const Vec3d& a, const Vec3d& b, const Vec3d& d, const Vec3d& e, std::int32_t body) {
+      test::add_rectangle(c.walls, a, b, d, e, body);
+    };
     const double lo = three ? 0.0 : -0.5;
     quad({0, lo, 0}, {size.x, lo, 0}, {size.x, lo + w, 0}, {0, lo + w, 0}, 0);
     quad({0, lo, 0}, {0, lo + w, 0}, {0, lo + w, size.z}, {0, lo, size.z}, 0);
@@ -57,7 +59,8 @@ struct Maker {
     }
     if (c.bodies.empty()) return;
     quad({0.1, lo, 0}, {0.1, lo + w, 0}, {0.1, lo + w, 0.22}, {0.1, lo, 0.22}, 1);
-    lattice({0.1, 0.0, 0.0}, {0.1 + 2 * dp, size.y, 0.22}, [&](const Vec3d& r) { wall(r, 1, static_cast<float>(0.5 * dp)); });
+    lattice({0.1, 0.0, 0.0}, {0.1 + 2 * dp, size.y, 0.22},
+            [&](const Vec3d& r) { wall(r, 1, static_cast<float>(0.5 * dp)); });
   }
 
   void gate() {
@@ -94,7 +97,8 @@ Case make(double dp, const std::set<std::string>& kinds) {
   m.c.scene.dp = dp;
   m.c.scene.time.end = m.three ? 0.1 : 0.2;
   m.c.scene.time.output_interval = 0.25 * m.c.scene.time.end;
-  m.c.domain = {{-4 * dp, m.three ? -4 * dp : -dp, -4 * dp}, {size.x + 4 * dp, m.three ? size.y + 4 * dp : dp, 2 * size.z}};
+  m.c.domain = {{-4 * dp, m.three ? -4 * dp : -dp, -4 * dp},
+                {size.x + 4 * dp, m.three ? size.y + 4 * dp : dp, 2 * size.z}};
   m.c.scene.domain = m.c.domain;
   m.c.still_water_level = 0.2;
   if (kinds.count("gate")) m.gate();
@@ -114,7 +118,5 @@ int main(int argc, char** argv) {
   try {
     gdesp::write_case(argv[1], make(argc > 2 ? std::atof(argv[2]) : 0.01, kinds), true);
     return 0;
-  } catch (const gdesp::Error& e) {
-    return std::fprintf(stderr, "make_case: %s\n", e.what()), e.exit_code();
-  }
+  } catch (const gdesp::Error& e) { return std::fprintf(stderr, "make_case: %s\n", e.what()), e.exit_code(); }
 }

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <random>
 
+#include "../../support/surfaces.hpp"
 #include "case_to_input.hpp"
 #include "core/error.hpp"
 #include "scene_economy.hpp"
 #include "simulation/simulation.hpp"
-#include "../../support/surfaces.hpp"
 #include "target.hpp"
 
 namespace gdesp::tool {
@@ -58,7 +58,8 @@ TEST(ContactSoftness, is_the_overlap_of_a_collision_and_says_what_keeps_it_small
   const double v = 1.0, E = in.contact.youngs_modulus, nu = in.contact.poisson_ratio, R = 0.025;
   // Hertz (1881), two spheres: overlap = (15 m* v^2 / (16 E* sqrt(R*)))^(2/5).
   const double mass = 2650.0 * 4.0 / 3.0 * M_PI * R * R * R;
-  const double overlap = std::pow(15.0 * 0.5 * mass * v * v / (16.0 * 0.5 * E / (1 - nu * nu) * std::sqrt(0.5 * R)), 0.4);
+  const double overlap =
+      std::pow(15.0 * 0.5 * mass * v * v / (16.0 * 0.5 * E / (1 - nu * nu) * std::sqrt(0.5 * R)), 0.4);
   const ContactSoftness c = contact_softness(in, 3.0 * v);
   EXPECT_NEAR(c.on_impact, overlap / (2 * R), 1e-3 * c.on_impact);
   in.contact.youngs_modulus = c.stiffness;
@@ -115,14 +116,17 @@ TEST(NeedlessWidth, half_the_tank_gives_the_answer_of_the_whole) {
         for (int k = -3; k < nz; ++k) {
           const Vec3d r{(i + 0.5) * dp, (j + 0.5) * dp, (k + 0.5) * dp};
           const bool inside = i >= 0 && i < nx && j >= low && j < ny && k >= 0;
-          if (!inside) in.boundary.position.push_back(r);
-          else if (r.x < 0.4 && r.z < 0.4 && std::abs(r.y) < 0.4) in.fluid.position.push_back(r);
+          if (!inside)
+            in.boundary.position.push_back(r);
+          else if (r.x < 0.4 && r.z < 0.4 && std::abs(r.y) < 0.4)
+            in.fluid.position.push_back(r);
         }
     auto simulation = make_simulation(in, "cpu");
     simulation->advance_to(0.3);
     Vec3d sum;
     const auto water = simulation->fluid();
-    for (const Vec3d& r : water.position) sum += Vec3d{r.x, std::abs(r.y), r.z} * (1.0 / static_cast<double>(water.position.size()));
+    for (const Vec3d& r : water.position)
+      sum += Vec3d{r.x, std::abs(r.y), r.z} * (1.0 / static_cast<double>(water.position.size()));
     return sum;
   };
   const Vec3d whole = mean_place(true), half = mean_place(false);
@@ -183,7 +187,6 @@ TEST(Targets, choose_the_dp_of_an_exact_first_order_method) {
   EXPECT_THROW(choose_dp(pilots, {0.01, 0.0}, 3), Error) << "scatter";
 }
 
-
 /// A column of grains collapses on a rough floor between rough walls: all of it, or half of it against a plane of symmetry. Where its
 /// grains are in the mean, over some starts.
 Vec3d heap(bool whole, bool smooth) {
@@ -205,7 +208,8 @@ Vec3d heap(bool whole, bool smooth) {
     for (int i = 0; i < 6; ++i)
       for (int j = 0; j < 5; ++j)
         for (int k = 0; k < 10; ++k) {
-          const Vec3d r{(i + 0.5) * pitch + jitter(random), (j + 0.5) * pitch + jitter(random), (k + 0.5) * pitch + jitter(random)};
+          const Vec3d r{(i + 0.5) * pitch + jitter(random), (j + 0.5) * pitch + jitter(random),
+                        (k + 0.5) * pitch + jitter(random)};
           add(r);
           if (whole) add({r.x, -r.y, r.z});
         }
@@ -222,7 +226,8 @@ Vec3d heap(bool whole, bool smooth) {
     auto simulation = make_simulation(in, "cpu");
     simulation->advance_to(0.4);
     const auto grains = simulation->grains();
-    for (const Vec3d& r : grains.position) sum += Vec3d{r.x, std::abs(r.y), r.z} * (1.0 / static_cast<double>(starts * grains.position.size()));
+    for (const Vec3d& r : grains.position)
+      sum += Vec3d{r.x, std::abs(r.y), r.z} * (1.0 / static_cast<double>(starts * grains.position.size()));
   }
   return sum;
 }

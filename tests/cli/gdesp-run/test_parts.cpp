@@ -176,8 +176,9 @@ TEST(SceneSummary, too_little_memory_names_the_dp_that_fits) {
     return std::string("accepted");
   };
   EXPECT_NE(refused("cpu", available_memory("cpu")).find("resolution.dp = 2.0"), std::string::npos);
-  EXPECT_EQ(refused("cuda:0", 78.0 * 1073741824.0),
-            "the case needs about 624 GiB of memory, cuda:0 has 78 GiB free; resolution.dp = 2.04 m would fit (now 1 m)");
+  EXPECT_EQ(
+      refused("cuda:0", 78.0 * 1073741824.0),
+      "the case needs about 624 GiB of memory, cuda:0 has 78 GiB free; resolution.dp = 2.04 m would fit (now 1 m)");
   s.memory = 1e9;
   EXPECT_NO_THROW(check_memory(s, scene, "cuda:0", 1.1e9));
 }
@@ -226,9 +227,10 @@ TEST(MovingSurfaces, quaternion_gives_the_rotation_back) {
     Vec3d n{1.0 * (k % 3), 1.0 * (k % 2), 0.5 + k};
     n *= s / norm(n);
     BodyPose pose;
-    const double r[9] = {1 - 2 * (n.y * n.y + n.z * n.z), 2 * (n.x * n.y - w * n.z), 2 * (n.x * n.z + w * n.y),
-                         2 * (n.x * n.y + w * n.z), 1 - 2 * (n.x * n.x + n.z * n.z), 2 * (n.y * n.z - w * n.x),
-                         2 * (n.x * n.z - w * n.y), 2 * (n.y * n.z + w * n.x), 1 - 2 * (n.x * n.x + n.y * n.y)};
+    const double r[9] = {
+        1 - 2 * (n.y * n.y + n.z * n.z), 2 * (n.x * n.y - w * n.z),       2 * (n.x * n.z + w * n.y),
+        2 * (n.x * n.y + w * n.z),       1 - 2 * (n.x * n.x + n.z * n.z), 2 * (n.y * n.z - w * n.x),
+        2 * (n.x * n.z - w * n.y),       2 * (n.y * n.z + w * n.x),       1 - 2 * (n.x * n.x + n.y * n.y)};
     std::copy(std::begin(r), std::end(r), std::begin(pose.rotation));
     const BodyState state = body_states({block}, {pose}, 0.0)[0];
     const double* q = state.orientation;

@@ -107,8 +107,11 @@ Case valley_case(double dp) {
   c.scene.gauges.push_back({"middle", Vec3d{40, 80, 25} + offset, true});
   c.scene.gauges.push_back({"far shore", Vec3d{70, 80, 0} + offset, false});
   c.scene.sections.push_back({"across", {offset.x - 140, offset.y + 80}, {offset.x + 140, offset.y + 80}});
-  c.scene.regions.push_back({"far bank", {{offset.x, offset.y}, {offset.x + 150, offset.y},
-                                          {offset.x + 150, offset.y + length}, {offset.x, offset.y + length}}});
+  c.scene.regions.push_back({"far bank",
+                             {{offset.x, offset.y},
+                              {offset.x + 150, offset.y},
+                              {offset.x + 150, offset.y + length},
+                              {offset.x, offset.y + length}}});
   c.scene.time.end = 20.0;
   c.scene.time.output_interval = 1.0;
   c.offset = offset;
@@ -138,13 +141,13 @@ int main(int argc, char** argv) {
       frame.fluid = water_at(frame.time, dp);
       frame.grains = slide_at(frame.time, dp);
       const FramePaths p = writer.write(frame);
-      std::printf("{\"record\":\"frame\",\"path\":\"%s\",\"fluid\":\"%s\",\"grains\":\"%s\",\"case\":\"%s\",\"t\":%.6g,\"step\":%lld}\n",
-                  p.fluid.c_str(), p.fluid.c_str(), p.grains.c_str(), argv[1], frame.time, static_cast<long long>(frame.step));
+      std::printf(
+          "{\"record\":\"frame\",\"path\":\"%s\",\"fluid\":\"%s\",\"grains\":\"%s\",\"case\":\"%s\",\"t\":%.6g,"
+          "\"step\":%lld}\n",
+          p.fluid.c_str(), p.fluid.c_str(), p.grains.c_str(), argv[1], frame.time, static_cast<long long>(frame.step));
       std::fflush(stdout);
     }
     std::printf("{\"record\":\"done\",\"run\":\"%s\",\"case\":\"%s\",\"t\":20}\n", argv[2], argv[1]);
     return 0;
-  } catch (const Error& e) {
-    return std::fprintf(stderr, "make_run: %s\n", e.what()), e.exit_code();
-  }
+  } catch (const Error& e) { return std::fprintf(stderr, "make_run: %s\n", e.what()), e.exit_code(); }
 }

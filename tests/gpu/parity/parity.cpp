@@ -22,10 +22,10 @@ namespace {
 
 // Both back ends sum in the same order; what differs is the rounding of quotients, roots and fused products. Measured
 // per step it is a few units in the last place of single precision, and contacts and violent water amplify it.
-constexpr double place_tolerance = 2.0e-4;     // of dp or of the smallest diameter
-constexpr double speed_tolerance = 2.0e-4;     // of the sound speed or of the largest grain speed
-constexpr double density_tolerance = 2.0e-6;   // of the reference density
-constexpr double energy_tolerance = 1.0e-5;    // of the kinetic and elastic energy
+constexpr double place_tolerance = 2.0e-4;    // of dp or of the smallest diameter
+constexpr double speed_tolerance = 2.0e-4;    // of the sound speed or of the largest grain speed
+constexpr double density_tolerance = 2.0e-6;  // of the reference density
+constexpr double energy_tolerance = 1.0e-5;   // of the kinetic and elastic energy
 
 struct State {
   FluidTable fluid;
@@ -44,8 +44,9 @@ State run(const SimulationInput& input, const std::string& device, int steps) {
 class Table {
  public:
   void row(const std::string& scene, const char* quantity, double difference, double tolerance) {
-    const bool agrees = difference <= tolerance;   // false for NaN
-    std::printf("%-26s %-26s %10.2e %10.1e  %s\n", scene.c_str(), quantity, difference, tolerance, agrees ? "ok" : "FAILED");
+    const bool agrees = difference <= tolerance;  // false for NaN
+    std::printf("%-26s %-26s %10.2e %10.1e  %s\n", scene.c_str(), quantity, difference, tolerance,
+                agrees ? "ok" : "FAILED");
     ++(agrees ? passed : failed);
   }
   int passed = 0, failed = 0;
@@ -73,7 +74,8 @@ double largest_distance(const std::vector<float>& a, const std::vector<float>& b
 void compare(const parity::Scene& scene, const State& a, const State& b, Table& table) {
   const sph::FluidParameters& p = scene.input.fluid_parameters;
   if (!a.fluid.position.empty()) {
-    table.row(scene.name, "water, place / dp", largest_distance(a.fluid.position, b.fluid.position) / p.dp, place_tolerance);
+    table.row(scene.name, "water, place / dp", largest_distance(a.fluid.position, b.fluid.position) / p.dp,
+              place_tolerance);
     table.row(scene.name, "water, velocity / c", largest_distance(a.fluid.velocity, b.fluid.velocity) / p.sound_speed,
               speed_tolerance);
     table.row(scene.name, "water, density / rho0",
@@ -81,7 +83,8 @@ void compare(const parity::Scene& scene, const State& a, const State& b, Table& 
   }
   if (!a.grains.position.empty()) {
     const double d = static_cast<double>(scene.smallest_diameter);
-    table.row(scene.name, "grains, place / d", largest_distance(a.grains.position, b.grains.position) / d, place_tolerance);
+    table.row(scene.name, "grains, place / d", largest_distance(a.grains.position, b.grains.position) / d,
+              place_tolerance);
     table.row(scene.name, "grains, velocity / largest",
               largest_distance(a.grains.velocity, b.grains.velocity) / a.sums.largest_grain_speed, speed_tolerance);
   }
@@ -89,8 +92,10 @@ void compare(const parity::Scene& scene, const State& a, const State& b, Table& 
   const double other = b.sums.fluid_kinetic + b.sums.fluid_elastic + b.sums.grain_kinetic + b.sums.grain_elastic;
   table.row(scene.name, "energy", std::fabs(energy - other) / energy, energy_tolerance);
   table.row(scene.name, "steps, lists, sub-steps",
-            std::fabs(static_cast<double>(a.sums.step - b.sums.step)) + std::fabs(static_cast<double>(a.sums.rebuilds - b.sums.rebuilds)) +
-                std::fabs(static_cast<double>(a.sums.grain_substeps - b.sums.grain_substeps)), 0.0);
+            std::fabs(static_cast<double>(a.sums.step - b.sums.step)) +
+                std::fabs(static_cast<double>(a.sums.rebuilds - b.sums.rebuilds)) +
+                std::fabs(static_cast<double>(a.sums.grain_substeps - b.sums.grain_substeps)),
+            0.0);
 }
 
 // Exactly: not a bit differs in what particles do. (Where a list lies in memory may differ, and does no harm.)
@@ -136,11 +141,14 @@ int main(int argc, char** argv) {
   std::string device = "cuda";
   bool small = false;
   for (int k = 1; k < argc; ++k) {
-    if (std::strcmp(argv[k], "--small") == 0) small = true;
-    else device = argv[k];
+    if (std::strcmp(argv[k], "--small") == 0)
+      small = true;
+    else
+      device = argv[k];
   }
   if (device != "cpu" && gdesp::exec::cuda_devices().empty()) {
-    std::printf("SKIPPED: no CUDA device is seen%s\n", gdesp::exec::cuda_built() ? "" : ", and no CUDA back end is built");
+    std::printf("SKIPPED: no CUDA device is seen%s\n",
+                gdesp::exec::cuda_built() ? "" : ", and no CUDA back end is built");
     return 77;
   }
   try {

@@ -13,7 +13,7 @@ struct Scene {
   std::string name;
   SimulationInput input;
   int steps = 0;
-  float smallest_diameter = 0.0f;   ///< m, of the grains
+  float smallest_diameter = 0.0f;  ///< m, of the grains
 };
 
 /// `small`: a few hundred particles each, for compute-sanitizer.

@@ -3,15 +3,15 @@
 // silently made loops of lanes seven times slower (a failed store forwarding) and seventeen times (no vectors at all).
 #include <gtest/gtest.h>
 
-#include "bench/hand_written_pass.hpp"
 #include "bench/bench.hpp"
+#include "bench/hand_written_pass.hpp"
 #include "dem/contact_force.hpp"
 
 namespace gdesp {
 namespace {
 
 #if defined(__AVX512F__)
-constexpr double least_gain = 4.0;   // of sixteen lanes; 7.5 measured
+constexpr double least_gain = 4.0;  // of sixteen lanes; 7.5 measured
 #elif defined(__AVX2__)
 constexpr double least_gain = 2.5;
 #endif
@@ -24,7 +24,8 @@ sph::FluidSystem<exec::OpenMP> block_of_water(int n) {
   for (int i = 0; i < n * n * n; ++i) {
     const auto at = [&](int k) { return (k + 0.5) * dp + jitter(); };
     table.position.push_back({at(i % n), at(i / n % n), at(i / (n * n))});
-    table.velocity.push_back({static_cast<float>(jitter()), static_cast<float>(jitter()), static_cast<float>(jitter())});
+    table.velocity.push_back(
+        {static_cast<float>(jitter()), static_cast<float>(jitter()), static_cast<float>(jitter())});
     table.density.push_back(1000.0f);
   }
   const bool periodic[3] = {false, false, false};
@@ -33,8 +34,11 @@ sph::FluidSystem<exec::OpenMP> block_of_water(int n) {
   parameters.h = 1.3 * dp;
   parameters.sound_speed = 40.0;
   parameters.skin = 0.1 * parameters.h;
-  return {{}, make_domain({-0.1, -0.1, -0.1}, {n * dp + 0.1, n * dp + 0.1, n * dp + 0.1}, dp, periodic, 3), parameters,
-          table, {}};
+  return {{},
+          make_domain({-0.1, -0.1, -0.1}, {n * dp + 0.1, n * dp + 0.1, n * dp + 0.1}, dp, periodic, 3),
+          parameters,
+          table,
+          {}};
 }
 
 TEST(Speed, fluid_pass_is_several_times_faster_than_pair_by_pair) {
@@ -88,12 +92,14 @@ float sum_of_forces(const std::vector<float>& overlap, int lanes, const Load& lo
     const dem::ContactForce<R> c = dem::contact_force(laws, g, half, history);
     total = total + (c.force.x + c.force.y + c.force.z + history.x);
   }
-  if constexpr (std::is_same_v<R, float>) return total;
-  else return exec::HostRowLanes::sum(total);
+  if constexpr (std::is_same_v<R, float>)
+    return total;
+  else
+    return exec::HostRowLanes::sum(total);
 }
 
-__attribute__((noinline, optimize("no-tree-vectorize", "no-tree-slp-vectorize")))
-float one_by_one(const std::vector<float>& overlap) {
+__attribute__((noinline, optimize("no-tree-vectorize", "no-tree-slp-vectorize"))) float one_by_one(
+    const std::vector<float>& overlap) {
   return sum_of_forces<float>(overlap, 1, [](const float* p) { return *p; });
 }
 
@@ -106,8 +112,9 @@ TEST(Speed, eight_contacts_at_once_are_faster_than_one_by_one) {
   float a = 0.0f, b = 0.0f;
   for (int k = 0; k < 60; ++k) {
     lanes = std::min(lanes, bench::seconds_of([&] {
-      a = sum_of_forces<exec::Float8>(overlap, 8, [](const float* p) { return exec::HostRowLanes::load(p); });
-    }));
+                       a = sum_of_forces<exec::Float8>(overlap, 8,
+                                                       [](const float* p) { return exec::HostRowLanes::load(p); });
+                     }));
     one = std::min(one, bench::seconds_of([&] { b = one_by_one(overlap); }));
   }
   EXPECT_NEAR(a, b, 1.0e-3f * std::abs(b));

@@ -51,20 +51,24 @@ TEST(ClosedUnion, GapsAreClosedUpToTwiceTheRadius) {
     blocks.insert(blocks.end(), upper.begin(), upper.end());
     const auto tiles = closed_union(blocks, {0.5, 1.3, 0.8, 3.0});
     const auto middle = at(tiles, 8, 8, static_cast<int>(std::round(2.0 * (7.5 + 0.5 * gap))));
-    if (gap > 2.6) EXPECT_GT(middle.value_or(1.0f), 0.0f) << gap;
-    else EXPECT_LT(middle.value_or(-1.0f), 0.0f) << gap;
+    if (gap > 2.6)
+      EXPECT_GT(middle.value_or(1.0f), 0.0f) << gap;
+    else
+      EXPECT_LT(middle.value_or(-1.0f), 0.0f) << gap;
   }
 }
 
 TEST(ClosedUnion, DeepWaterCostsNoTiles) {
-  const auto block = fill({0, 0, 0}, {40, 40, 40}, 1.0, 3, [](const Vec3d&) { return true; }, 0.2);
+  const auto block = fill(
+      {0, 0, 0}, {40, 40, 40}, 1.0, 3, [](const Vec3d&) { return true; }, 0.2);
   const auto tiles = closed_union(block, {0.5, 1.3, 0.8, 1.5});
   EXPECT_FALSE(at(tiles, 40, 40, 40).has_value());
   EXPECT_LT(tiles.size(), 12u * 12u * 12u - 8u * 8u * 8u);
 }
 
 TEST(ClosedUnion, SameForAnyNumberOfThreads) {
-  const auto drop = fill({-6, -6, -6}, {6, 6, 6}, 1.0, 3, [](const Vec3d& p) { return norm(p) < 5.0; }, 0.3);
+  const auto drop = fill(
+      {-6, -6, -6}, {6, 6, 6}, 1.0, 3, [](const Vec3d& p) { return norm(p) < 5.0; }, 0.3);
   const int threads = omp_get_max_threads();
   omp_set_num_threads(1);
   const auto one = closed_union(drop, {0.5, 1.3, 0.8, 3.0});

@@ -67,8 +67,9 @@ TEST(ConnectedWater, InTwoDimensionsALineIsASheet) {
 
 // Oracle: the same rule by comparing all pairs, on a random gas of particles near the percolation threshold.
 TEST(ConnectedWater, AllPairsAgree) {
-  const auto p = fill({0, 0, 0}, {1.2, 1.2, 1.2}, dp, 3,
-                      [](const Vec3d& q) { return std::sin(1e4 * (q.x + 3 * q.y + 7 * q.z)) > 0.2; }, 0.4);
+  const auto p = fill(
+      {0, 0, 0}, {1.2, 1.2, 1.2}, dp, 3, [](const Vec3d& q) { return std::sin(1e4 * (q.x + 3 * q.y + 7 * q.z)) > 0.2; },
+      0.4);
   const std::size_t n = p.size();
   const double link2 = 0.15 * 0.15;
   std::vector<int> count(n, 0), label(n);

@@ -106,9 +106,7 @@ TEST(FreeSurface, SineWaveAndItsConvergence) {
     }
     const double rms = std::sqrt(sum / count);
     EXPECT_LT(rms, 0.12 * dp);
-    if (before > 0.0) {
-      EXPECT_LT(rms, 0.7 * before) << "halving dp must at least nearly halve the error";
-    }
+    if (before > 0.0) { EXPECT_LT(rms, 0.7 * before) << "halving dp must at least nearly halve the error"; }
     before = rms;
   }
 }

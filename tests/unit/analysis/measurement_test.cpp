@@ -58,8 +58,9 @@ TEST(GaugeMeasurement, LevelInAFarLakeIsThatOfItsColumns) {
   Frame frame = block(0, 2.0, 1.0, dp);
   frame.far_lakes = {{{2.5, 3.5, 4.5}, {1.2, 1.4, 1.0}, {0, 0, 0}}, {{-0.5, -1.5}, {0.9, 0.7}, {0, 0}}};
   GaugeOptions options;
-  options.gauges = {{"water", {1001, 2001, 0}, false}, {"first", {1002.1, 2001, 0}, false}, {"between", {1003.25, 2001, 0}, false},
-                    {"last", {1004.9, 2001, 0}, false}, {"behind", {1005.1, 2001, 0}, false}, {"other side", {999.0, 2001, 0}, false}};
+  options.gauges = {{"water", {1001, 2001, 0}, false},      {"first", {1002.1, 2001, 0}, false},
+                    {"between", {1003.25, 2001, 0}, false}, {"last", {1004.9, 2001, 0}, false},
+                    {"behind", {1005.1, 2001, 0}, false},   {"other side", {999.0, 2001, 0}, false}};
   GaugeMeasurement m(options);
   const Table t = run(m, tank(dp), {frame});
   const std::vector<double> level = t.numbers("level");
@@ -137,7 +138,7 @@ TEST(EnergyMeasurement, KineticPotentialAndCompression) {
   f.fluid.density.assign(f.fluid.position.size(), static_cast<float>(1000 * r));
   f.fluid.pressure.assign(f.fluid.position.size(), static_cast<float>(b * (std::pow(r, 7) - 1)));
   const EnergyState e = measure_energy(f, info);
-  EXPECT_NEAR(e.water_kinetic, 0.5 * 2000.0 * 4.0, 1e-3);       // 2 m3 at 2 m/s
+  EXPECT_NEAR(e.water_kinetic, 0.5 * 2000.0 * 4.0, 1e-3);  // 2 m3 at 2 m/s
   EXPECT_NEAR(e.water_potential, 2000.0 * 9.81 * 0.5, 1e-3);
   // int p/rho^2 drho from 1000 to 1010, by Simpson.
   double sum = 0.0;
@@ -208,7 +209,7 @@ TEST(Plot, WritesEachKindAndRefusesOthers) {
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) files += entry.is_regular_file();
   EXPECT_EQ(files, 3u) << "nothing aside is left";
-  for (const std::string kind : {".svg", ".png", ".pdf"}) {   // a disk without room: gnuplot says nothing of it
+  for (const std::string kind : {".svg", ".png", ".pdf"}) {  // a disk without room: gnuplot says nothing of it
     if (!std::filesystem::exists("/dev/full")) break;
     const std::string path = (folder / ("full" + kind)).string();
     std::filesystem::create_symlink("/dev/full", path + ".part-" + std::to_string(::getpid()) + kind);

@@ -35,7 +35,8 @@ const std::vector<BankRegion> anywhere{{"all", {}, {}, {}}};
 RunUpFrame read(const std::vector<Vec3d>& water, const TriangleTable& walls, const std::vector<BankRegion>& regions,
                 const std::vector<float>& density = {}) {
   const ColumnGrid grid(water, 0.26, 3);
-  return measure_run_up(grid, find_connected_water(grid, dp, {}, density), {dp, 1.0, 2.6 * dp}, WallSurface(walls), regions);
+  return measure_run_up(grid, find_connected_water(grid, dp, {}, density), {dp, 1.0, 2.6 * dp}, WallSurface(walls),
+                        regions);
 }
 
 TEST(RunUp, StillWaterDoesNotClimb) {
@@ -126,8 +127,8 @@ TEST(RunUp, AVerticalWallIsABank) {
   TriangleTable wall;
   wall.vertex = {{0, 0, 0}, {0, 2, 0}, {0, 2, 4}, {0, 0, 4}};
   wall.triangle = {{0, 1, 2}, {0, 2, 3}};
-  const auto p = fill({0, 0, 0}, {3, 2, 4}, dp, 3,
-                      [](const Vec3d& q) { return q.z < 1.0 || (q.x < 0.2 && q.z < 2.5); });
+  const auto p =
+      fill({0, 0, 0}, {3, 2, 4}, dp, 3, [](const Vec3d& q) { return q.z < 1.0 || (q.x < 0.2 && q.z < 2.5); });
   const RunUpFrame f = read(p, wall, anywhere);
   EXPECT_NEAR(f.region[0].height, 1.5, 1e-9);
 }
@@ -182,8 +183,10 @@ TEST(WallSurface, DistanceAgreesWithAllTriangles) {
     for (int j = 0; j < 20; ++j) {
       const std::int32_t v = static_cast<std::int32_t>(t.vertex.size());
       const auto z = [](double x, double y) { return std::sin(x) * std::cos(0.7 * y); };
-      t.vertex.insert(t.vertex.end(), {{i * 1.0, j * 1.0, z(i, j)}, {i + 1.0, j * 1.0, z(i + 1, j)},
-                                       {i + 1.0, j + 1.0, z(i + 1, j + 1)}, {i * 1.0, j + 1.0, z(i, j + 1)}});
+      t.vertex.insert(t.vertex.end(), {{i * 1.0, j * 1.0, z(i, j)},
+                                       {i + 1.0, j * 1.0, z(i + 1, j)},
+                                       {i + 1.0, j + 1.0, z(i + 1, j + 1)},
+                                       {i * 1.0, j + 1.0, z(i, j + 1)}});
       t.triangle.insert(t.triangle.end(), {{v, v + 1, v + 2}, {v, v + 2, v + 3}});
     }
   }
@@ -196,9 +199,7 @@ TEST(WallSurface, DistanceAgreesWithAllTriangles) {
     }
     const auto found = wall.nearest(p, 1.0);
     EXPECT_EQ(found.has_value(), best <= 1.0);
-    if (found) {
-      EXPECT_NEAR(norm(*found - p), best, 1e-12);
-    }
+    if (found) { EXPECT_NEAR(norm(*found - p), best, 1e-12); }
   }
   EXPECT_NEAR(wall.height(3.0, 4.0).value(), std::sin(3.0) * std::cos(2.8), 1e-9);
   EXPECT_FALSE(wall.height(-1.0, 4.0));

@@ -29,7 +29,8 @@ TEST(SurfaceMesh, SphereHasItsVolumeAndRadius) {
 // it should be. `place`: of the particles among the voxels, dp.
 double still_water_error(int layers, double place, double jitter) {
   const double dp = 0.1, top = layers * dp, lift = 1.3 * place * dp;
-  auto water = fill({0, 0, 0}, {2, 2, top}, dp, 3, [](const Vec3d&) { return true; }, jitter);
+  auto water = fill(
+      {0, 0, 0}, {2, 2, top}, dp, 3, [](const Vec3d&) { return true; }, jitter);
   for (Vec3d& p : water) p += Vec3d{place * dp, 0.7 * place * dp, lift};
   double sum = 0.0;
   int count = 0;
@@ -52,7 +53,8 @@ TEST(SurfaceMesh, StillWaterAndASheetOneParticleThick) {
 
 TEST(SurfaceMesh, VerticesTakeTheirParticlesVelocity) {
   const double dp = 0.1;
-  const auto water = fill({0, 0, 0}, {2, 2, 1}, dp, 3, [](const Vec3d&) { return true; }, 0.2);
+  const auto water = fill(
+      {0, 0, 0}, {2, 2, 1}, dp, 3, [](const Vec3d&) { return true; }, 0.2);
   const std::vector<Vec3f> velocity(water.size(), Vec3f{1, 2, 2});
   const SurfaceMesh mesh = extract_surface(water, velocity, {dp, 0.0});
   ASSERT_EQ(mesh.velocity.size(), mesh.vertex.size());

@@ -28,7 +28,9 @@ TEST(TableWriter, Json) {
 }
 TEST(TableWriter, JsonWithoutRowsIsAnEmptyArray) {
   std::string out;
-  { TableWriter writer([&](const std::string& text) { out += text; }, TableFormat::json, {"t[s]"}); }
+  {
+    TableWriter writer([&](const std::string& text) { out += text; }, TableFormat::json, {"t[s]"});
+  }
   EXPECT_EQ(out, "[]\n");
 }
 
@@ -53,16 +55,12 @@ TEST(ReadTable, ErrorsNameFileLineAndColumns) {
   try {
     parse_table(in, "x.csv");
     FAIL() << "no error";
-  } catch (const Error& e) {
-    EXPECT_NE(std::string(e.what()).find("x.csv:3"), std::string::npos) << e.what();
-  }
+  } catch (const Error& e) { EXPECT_NE(std::string(e.what()).find("x.csv:3"), std::string::npos) << e.what(); }
   std::istringstream good("a[m],b\n1,2\n");
   try {
     parse_table(good, "x.csv").find("c");
     FAIL() << "no error";
-  } catch (const Error& e) {
-    EXPECT_NE(std::string(e.what()).find("a[m], b"), std::string::npos) << e.what();
-  }
+  } catch (const Error& e) { EXPECT_NE(std::string(e.what()).find("a[m], b"), std::string::npos) << e.what(); }
 }
 
 }  // namespace

@@ -17,7 +17,8 @@ struct Lake {
   Frame frame;
   RunInfo info;
   Lake() {
-    frame.fluid.position = analysis_test::fill({0, 0, -1}, {6, 2, 1}, dp, 3, [](const Vec3d& p) { return p.z > 0.5 * p.x - 1.0 + 0.05; });
+    frame.fluid.position =
+        analysis_test::fill({0, 0, -1}, {6, 2, 1}, dp, 3, [](const Vec3d& p) { return p.z > 0.5 * p.x - 1.0 + 0.05; });
     frame.fluid.velocity.assign(frame.fluid.position.size(), Vec3f{3, 4, 0});
     info.dp = dp;
     info.walls.vertex = {{0, 0, -1}, {6, 0, 2}, {6, 2, 2}, {0, 2, -1}};

@@ -38,7 +38,7 @@ TEST(AveragingSpline, gradient_is_the_derivative_and_the_cut_off_corners_weigh_n
   EXPECT_NEAR(gradient.x, (spline.weight(x + d, y, z) - spline.weight(x - d, y, z)) / (2 * d), 2e-3f);
   EXPECT_NEAR(gradient.y, (spline.weight(x, y + d, z) - spline.weight(x, y - d, z)) / (2 * d), 2e-3f);
   EXPECT_NEAR(gradient.z, (spline.weight(x, y, z + d) - spline.weight(x, y, z - d)) / (2 * d), 2e-3f);
-  float sum = 0.0f;   // the middle of a cell: the corners are furthest there
+  float sum = 0.0f;  // the middle of a cell: the corners are furthest there
   for (int i = -2; i < 2; ++i)
     for (int j = -2; j < 2; ++j)
       for (int k = -2; k < 2; ++k) {
@@ -70,9 +70,10 @@ TEST(AveragingNodes, are_all_that_are_in_reach_of_both) {
   const Domain domain = make_domain({0, 0, 0}, {1.28, 0.5, 0.9}, dp, periodic, 3);
   const NodeLattice lattice(domain, 2.5 * dp);
   OpenMP exec;
-  const std::vector<Vec3d> grains{{0.004, 0.25, 0.3}, {0.7, 0.01, 0.64}}, water{{1.26, 0.24, 0.31}, {0.72, 0.03, 0.66}, {0.4, 0.4, 0.4}};
-  const auto make_set = [&](const std::vector<Vec3d>& places, ClusterSet<OpenMP>& set, exec::Array<FixedPosition, OpenMP>& position,
-                            exec::Array<std::uint32_t, OpenMP>& id) {
+  const std::vector<Vec3d> grains{{0.004, 0.25, 0.3}, {0.7, 0.01, 0.64}},
+      water{{1.26, 0.24, 0.31}, {0.72, 0.03, 0.66}, {0.4, 0.4, 0.4}};
+  const auto make_set = [&](const std::vector<Vec3d>& places, ClusterSet<OpenMP>& set,
+                            exec::Array<FixedPosition, OpenMP>& position, exec::Array<std::uint32_t, OpenMP>& id) {
     std::vector<FixedPosition> fixed;
     std::vector<std::uint32_t> ids;
     for (const Vec3d& r : places) {
@@ -119,14 +120,15 @@ TEST(AveragingNodes, are_all_that_are_in_reach_of_both) {
   for (int x = 0; x < domain.tiles.x * lattice.count.x; ++x)
     for (int y = 0; y < domain.tiles.y * lattice.count.y; ++y)
       for (int z = 0; z < domain.tiles.z * lattice.count.z; ++z) {
-        const Vec3d node{(x + 0.5) * domain.tile_size.x / lattice.count.x, (y + 0.5) * domain.tile_size.y / lattice.count.y,
+        const Vec3d node{(x + 0.5) * domain.tile_size.x / lattice.count.x,
+                         (y + 0.5) * domain.tile_size.y / lattice.count.y,
                          (z + 0.5) * domain.tile_size.z / lattice.count.z};
         if (!in_reach(grains, node) || !in_reach(water, node)) continue;
         ++wanted;
         EXPECT_TRUE(chosen.count({x, y, z})) << x << " " << y << " " << z;
       }
   EXPECT_GT(wanted, 20u);
-  EXPECT_LT(chosen.size(), 8 * wanted);   // those in reach, and not all that there are
+  EXPECT_LT(chosen.size(), 8 * wanted);  // those in reach, and not all that there are
 }
 
 }  // namespace

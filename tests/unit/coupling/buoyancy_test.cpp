@@ -25,7 +25,10 @@ double slope(double r) {
   return 5.0 * sph::wendland_normalisation(h, 3) / (h * h) * t * t * t;
 }
 
-struct Particle { Vec3d r; double u, pressure; };
+struct Particle {
+  Vec3d r;
+  double u, pressure;
+};
 const Vec3f rho_g{0.0f, 0.0f, -9810.0f};
 
 // A jittered lattice of water from the floor z = 0 up to z = top, with the room that the wall below leaves.
@@ -37,11 +40,13 @@ std::vector<Particle> surroundings(double top, const Pressure& pressure) {
   for (int x = -5; x < 5; ++x)
     for (int y = -5; y < 5; ++y)
       for (int z = 0; (z + 0.5) * dp < top; ++z) {
-        const Vec3d r{(x + 0.5) * dp + jitter(random), (y + 0.5) * dp + jitter(random), (z + 0.5) * dp + jitter(random)};
+        const Vec3d r{(x + 0.5) * dp + jitter(random), (y + 0.5) * dp + jitter(random),
+                      (z + 0.5) * dp + jitter(random)};
         double wall = 0.0;
         for (int i = -4; i <= 4; ++i)
           for (int j = -4; j <= 4; ++j)
-            for (int k = -3; k < 0; ++k) wall += dp * dp * dp * W(norm(r - Vec3d{r.x + i * dp, r.y + j * dp, (k + 0.5) * dp}));
+            for (int k = -3; k < 0; ++k)
+              wall += dp * dp * dp * W(norm(r - Vec3d{r.x + i * dp, r.y + j * dp, (k + 0.5) * dp}));
         out.push_back({r, dp * dp * dp / static_cast<double>(open_share(static_cast<float>(wall))), pressure(r.z)});
       }
   return out;
@@ -64,13 +69,14 @@ Surroundings sums_at(const std::vector<Particle>& around, const Vec3d& x) {
 
 double energy(const std::vector<Particle>& around, const Vec3d& x, double volume) {
   const Surroundings s = sums_at(around, x);
-  return volume * static_cast<double>(immersion(s.water)) * static_cast<double>(s.pressure) / static_cast<double>(s.water);
+  return volume * static_cast<double>(immersion(s.water)) * static_cast<double>(s.pressure) /
+         static_cast<double>(s.water);
 }
 
 TEST(Immersion, hand_values) {
   EXPECT_EQ(immersion(0.2f), 0.0f);
   EXPECT_EQ(immersion(0.25f), 0.0f);
-  EXPECT_NEAR(immersion(0.375f), 0.15625f, 1e-6f);   // t = 1/4: 1/16 (3 - 1/2)
+  EXPECT_NEAR(immersion(0.375f), 0.15625f, 1e-6f);  // t = 1/4: 1/16 (3 - 1/2)
   EXPECT_EQ(immersion(0.5f), 0.5f);
   EXPECT_EQ(immersion(1.0f), 1.0f);
   EXPECT_NEAR(immersion_slope(0.5f), 3.0f, 1e-6f);
@@ -82,7 +88,8 @@ TEST(Immersion, hand_values) {
 // The force is minus the derivative of the energy, at the free surface and on the floor as in the deep.
 TEST(Buoyancy, is_the_derivative_of_the_energy) {
   const auto around = surroundings(0.4, [](double z) { return 5000.0 + 15000.0 * (0.4 - z); });
-  for (const Vec3d& x : {Vec3d{0.01, 0.02, 0.21}, Vec3d{0.03, -0.01, 0.38}, Vec3d{0.0, 0.0, 0.42}, Vec3d{0.02, 0.01, 0.05}}) {
+  for (const Vec3d& x :
+       {Vec3d{0.01, 0.02, 0.21}, Vec3d{0.03, -0.01, 0.38}, Vec3d{0.0, 0.0, 0.42}, Vec3d{0.02, 0.01, 0.05}}) {
     const Buoyancy b = buoyancy(1e-3f, sums_at(around, x), rho_g);
     const double step = 2e-3;
     const Vec3d up{0, 0, step}, side{step, 0, 0};
@@ -101,8 +108,11 @@ TEST(Buoyancy, pairs_add_up_to_the_force) {
     Vec3d taken;
     for (const Particle& a : around) {
       const Vec3d d = x - a.r;
-      const double p = a.pressure - 9810.0 * d.z, push = static_cast<double>(b.slope) * p + static_cast<double>(b.offset);
-      taken += (d * (-slope(norm(d)) * push) + static_cast<Vec3d>(rho_g) * (static_cast<double>(b.slope) * W(norm(d)))) * a.u;
+      const double p = a.pressure - 9810.0 * d.z,
+                   push = static_cast<double>(b.slope) * p + static_cast<double>(b.offset);
+      taken +=
+          (d * (-slope(norm(d)) * push) + static_cast<Vec3d>(rho_g) * (static_cast<double>(b.slope) * W(norm(d)))) *
+          a.u;
     }
     EXPECT_LT(norm(taken + static_cast<Vec3d>(b.force)), 2e-3 * norm(static_cast<Vec3d>(b.force)));
   }

@@ -24,7 +24,7 @@ HertzMindlin hand_law(double restitution = 0.5) {
 TEST(HertzNormal, HandValue) {
   EXPECT_NEAR(effective_modulus(1e7, 0.3, 1e7, 0.3), 5494505.4945, 0.01);
   const auto c = hand_law()(hand_overlap, hand_radius, hand_mass);
-  EXPECT_NEAR(c.elastic_force, 0.598165993, 1e-6);   // E* = E/(1 - nu^2) would give 1.196332
+  EXPECT_NEAR(c.elastic_force, 0.598165993, 1e-6);  // E* = E/(1 - nu^2) would give 1.196332
   EXPECT_NEAR(c.normal_stiffness, 8972.4899, 0.01);
 }
 
@@ -36,7 +36,8 @@ TEST(HertzNormal, RigidPartnerDoublesTheModulus) {
 TEST(HertzNormal, ForceVanishesWithOverlapAndGrowsAsItsThreeHalves) {
   const HertzMindlin law = hand_law();
   EXPECT_LT(law(1.0e-12f, hand_radius, hand_mass).elastic_force, 1.0e-11f);
-  const float ratio = law(4.0e-4f, hand_radius, hand_mass).elastic_force / law(1.0e-4f, hand_radius, hand_mass).elastic_force;
+  const float ratio =
+      law(4.0e-4f, hand_radius, hand_mass).elastic_force / law(1.0e-4f, hand_radius, hand_mass).elastic_force;
   EXPECT_NEAR(ratio, 8.0f, 1e-5f);
 }
 
@@ -44,7 +45,8 @@ TEST(HertzNormal, StiffnessIsTheSlopeOfTheForce) {
   const HertzMindlin law = hand_law();
   const float step = 1.0e-6f;
   const float slope = (law(hand_overlap + step, hand_radius, hand_mass).elastic_force -
-                       law(hand_overlap - step, hand_radius, hand_mass).elastic_force) / (2.0f * step);
+                       law(hand_overlap - step, hand_radius, hand_mass).elastic_force) /
+                      (2.0f * step);
   EXPECT_NEAR(slope / law(hand_overlap, hand_radius, hand_mass).normal_stiffness, 1.0f, 2e-4f);
 }
 
@@ -139,14 +141,17 @@ TEST(RollingResistance, SpringThenConstantTorque) {
 // @eq dem.damping.limit
 TEST(ContactForce, DampingTakesALimitedShareOfTheVelocityInAStep) {
   const ContactLaws<HertzMindlin> laws{hand_law(0.5), 100.0f};
-  const auto damping = [&](float step) {   // N s/m: normal, tangential
+  const auto damping = [&](float step) {  // N s/m: normal, tangential
     const HalfSteps half{0.5f * step, 0.5f * step};
     const auto force_at = [&](float v_t, float v_n) {
       Vec3f history{};
-      return contact_force(laws, ContactGeometry<float>{{0, 0, 1}, hand_overlap, hand_radius, hand_mass, {v_t, 0, v_n}}, half, history).force;
+      return contact_force(laws, ContactGeometry<float>{{0, 0, 1}, hand_overlap, hand_radius, hand_mass, {v_t, 0, v_n}},
+                           half, history)
+          .force;
     };
     const float spring = laws.law(hand_overlap, hand_radius, hand_mass).tangential_stiffness * half.before;
-    return Vec3f{-force_at(0.001f, 0.0f).x / 0.001f - spring, 0.0f, (force_at(0.0f, -0.01f).z - force_at(0.0f, 0.0f).z) / 0.01f};
+    return Vec3f{-force_at(0.001f, 0.0f).x / 0.001f - spring, 0.0f,
+                 (force_at(0.0f, -0.01f).z - force_at(0.0f, 0.0f).z) / 0.01f};
   };
   const auto c = laws.law(hand_overlap, hand_radius, hand_mass);
   EXPECT_NEAR(damping(1.0e-5f).x, c.tangential_damping, 2e-3f * c.tangential_damping);
@@ -218,8 +223,9 @@ TEST(SemiImplicitDrag, TerminalVelocityKnowsNoStep) {
     for (double t = 0.0; t < 20.0 * mu / b || t < 20.0 * kick; t += kick) {
       const double free = v + kick * grain_force / M;
       u += kick * water;
-      const double J = static_cast<double>(drag_impulse({static_cast<float>(b), static_cast<float>(1.0 / M), static_cast<float>(1.0 / m_f)},
-                                                        static_cast<float>(kick), static_cast<float>(u - free)));
+      const double J = static_cast<double>(
+          drag_impulse({static_cast<float>(b), static_cast<float>(1.0 / M), static_cast<float>(1.0 / m_f)},
+                       static_cast<float>(kick), static_cast<float>(u - free)));
       v = free + J / M;
       u -= J / m_f;
     }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The loop over grains: lists against brute force, conservation, threads, re-sorting, checkpoints, drag.
 #include <gtest/gtest.h>
-
 #include <omp.h>
 
 #include "core/error.hpp"
@@ -87,8 +86,8 @@ TEST_F(GrainSystemTest, FindsTheManyContactsOfALargeGrain) {
 }
 
 TEST_F(GrainSystemTest, ListsHoldWhileGrainsMove) {
-  Grains grains({}, space({0, 0, 0}, {1, 1, 1}, 0.005),
-                random_grains(600, {0.3, 0.3, 0.3}, {0.6, 0.6, 0.6}, 5, 2.0), soft(), {}, {});
+  Grains grains({}, space({0, 0, 0}, {1, 1, 1}, 0.005), random_grains(600, {0.3, 0.3, 0.3}, {0.6, 0.6, 0.6}, 5, 2.0),
+                soft(), {}, {});
   int compared = 0;
   for (int k = 0; k < 30; ++k) {
     grains.advance(1.0e-4, 4);
@@ -198,16 +197,20 @@ TEST_F(GrainSystemTest, ASoftBedComesToRestAtTheDefaultStep) {
     for (int k = 0; k < 24; ++k) {
       for (int cell = 0; cell < 25; ++cell) {
         const auto off = [&] { return 0.0004 * (2.0 * random() - 1.0); };
-        add_grain(table, {0.0058 + 0.0116 * (cell % 5) + off(), 0.0058 + 0.0116 * (cell / 5) + off(), 0.0058 + 0.0116 * k + off()}, 0.01, 2500.0);
+        add_grain(
+            table,
+            {0.0058 + 0.0116 * (cell % 5) + off(), 0.0058 + 0.0116 * (cell / 5) + off(), 0.0058 + 0.0116 * k + off()},
+            0.01, 2500.0);
       }
     }
     ContactParameters p = soft(restitution, 0.4);
     p.youngs_modulus = 2.0e6;
-    Grains grains({}, space({-0.01, -0.01, -0.01}, {0.07, 0.07, 0.4}, 0.01), table, p, tank({0, 0, 0}, {0.058, 0.058, 0.39}), {0, 0, -9.81});
+    Grains grains({}, space({-0.01, -0.01, -0.01}, {0.07, 0.07, 0.4}, 0.01), table, p,
+                  tank({0, 0, 0}, {0.058, 0.058, 0.39}), {0, 0, -9.81});
     const double step = grains.stable_time_step(0.2), end = 1.2;
     grains.advance(end, static_cast<int>(std::ceil(end / step)));
     const GrainSums s = grains.sums();
-    EXPECT_LT(std::sqrt(2.0 * s.kinetic_energy / s.mass), 0.001) << "restitution " << restitution;   // m/s, spin counted
+    EXPECT_LT(std::sqrt(2.0 * s.kinetic_energy / s.mass), 0.001) << "restitution " << restitution;  // m/s, spin counted
   }
 }
 
@@ -290,7 +293,7 @@ TEST_F(GrainSystemTest, HeldGrainsStayUntilReleased) {
 
 // Two grains keep one history between them when lists are made; that of a held grain stands still and must not be it.
 TEST_F(GrainSystemTest, NewListsKeepTheHistoryAgainstAHeldGrain) {
-  for (const double below : {-1.0, 1.0}) {   // the held grain has the lower slot, then the upper one
+  for (const double below : {-1.0, 1.0}) {  // the held grain has the lower slot, then the upper one
     GrainTable table;
     add_grain(table, {0.5, 0.5, 0.5}, 0.02, 2500);
     add_grain(table, {0.502, 0.5, 0.5 - below * 0.0197}, 0.02, 2500, {0.05, 0, 0});
@@ -386,9 +389,7 @@ TEST_F(GrainSystemTest, InputErrorsNameGrainAndValue) {
   try {
     Grains grains({}, space({0, 0, 0}, {1, 1, 1}, 0.01), table, soft(), {}, {});
     FAIL() << "a negative diameter was taken";
-  } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("diameter of grain 0"), std::string::npos);
-  }
+  } catch (const Error& error) { EXPECT_NE(std::string(error.what()).find("diameter of grain 0"), std::string::npos); }
   table.diameter[0] = 0.3f;  // blocks of 0.64 m hold diameters up to 0.145 m
   EXPECT_THROW(Grains({}, space({0, 0, 0}, {1, 1, 1}, 0.01), table, soft(), {}, {}), Error);
 }
@@ -400,9 +401,7 @@ TEST_F(GrainSystemTest, RunawayStopsWithAMessage) {
   try {
     grains.advance(1.0e-9, 1);
     FAIL() << "a speed of 2e6 m/s was taken";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::numerical);
-  }
+  } catch (const Error& error) { EXPECT_EQ(error.kind(), ErrorKind::numerical); }
 }
 
 TEST_F(GrainSystemTest, StableStepIsAShareOfTheRayleighTime) {
@@ -441,18 +440,21 @@ TEST_F(GrainSystemTest, DiscsStayInTheirPlane) {
 TEST_F(GrainSystemTest, LoadedDiscsStayInTheirPlane) {
   GrainTable table;
   for (int row = 0; row < 12; ++row)
-    for (int k = 0; k <= row; ++k) add_grain(table, {0.5 + 0.0101 * (k - 0.5 * row), 0.003, 0.03 + 0.0088 * row}, 0.01, 2500,
-                                             {0.01, 0.2, 0}, {3, 1, 2});
+    for (int k = 0; k <= row; ++k)
+      add_grain(table, {0.5 + 0.0101 * (k - 0.5 * row), 0.003, 0.03 + 0.0088 * row}, 0.01, 2500, {0.01, 0.2, 0},
+                {3, 1, 2});
   add_grain(table, {0.5, 0, 0.183}, 0.1, 20000);
   TriangleTable walls;
   for (const double side : {-1.0, 1.0}) {
     const Vec3d low{0.5 + side * 0.002, -0.1, 0.0103}, high{0.5 + side * 0.1517, -0.1, 0.2681}, across{0, 0.2, 0};
-    if (side < 0) add_rectangle(walls, low, low + across, high + across, high);
-    else add_rectangle(walls, low, high, high + across, low + across);
+    if (side < 0)
+      add_rectangle(walls, low, low + across, high + across, high);
+    else
+      add_rectangle(walls, low, high, high + across, low + across);
   }
   add_rectangle(walls, {0.34, 0.1, 0.2681}, {0.66, 0.1, 0.2681}, {0.66, -0.1, 0.2681}, {0.34, -0.1, 0.2681});
   ContactParameters p = soft(0.3, 0.5);
-  p.youngs_modulus = 1.0e7;   // softer discs, pressed to two thirds of their size, may slip through the mouth
+  p.youngs_modulus = 1.0e7;  // softer discs, pressed to two thirds of their size, may slip through the mouth
   Grains grains({}, space({0, -0.004, 0}, {1, 0.004, 1}, 0.008, 2), table, p, walls, {0, 0, -9.81});
   for (int k = 0; k < 20; ++k) grains.advance(0.05, 5 * static_cast<int>(0.01 / grains.stable_time_step(0.2) + 1.0));
   EXPECT_EQ(grains.lost(), 0);

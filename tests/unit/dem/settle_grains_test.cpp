@@ -3,7 +3,6 @@
 #include "dem/settle_grains.hpp"
 
 #include <gtest/gtest.h>
-
 #include <omp.h>
 
 #include "core/error.hpp"
@@ -27,7 +26,8 @@ GrainTable loose_grains(std::uint64_t seed = 5) {
     for (int j = 0; j < 8; ++j) {
       for (int k = 0; k < 10; ++k) {
         const auto off = [&] { return 0.001 * (2.0 * random() - 1.0); };
-        add_grain(table, {0.016 + 0.024 * i + off(), 0.016 + 0.024 * j + off(), 0.016 + 0.024 * k + off()}, 0.018 + 0.004 * random(), 2500.0);
+        add_grain(table, {0.016 + 0.024 * i + off(), 0.016 + 0.024 * j + off(), 0.016 + 0.024 * k + off()},
+                  0.018 + 0.004 * random(), 2500.0);
       }
     }
   }
@@ -62,7 +62,8 @@ TEST(SettleGrains, LoosePackingFallsIntoABedAtRest) {
     fall += (before.position[i].z - table.position[i].z) / static_cast<double>(table.position.size());
     top = std::max(top, table.position[i].z);
     for (std::size_t j = 0; j < i; ++j) {
-      const double d = norm(table.position[i] - table.position[j]), sum = 0.5 * (static_cast<double>(table.diameter[i]) + table.diameter[j]);
+      const double d = norm(table.position[i] - table.position[j]),
+                   sum = 0.5 * (static_cast<double>(table.diameter[i]) + table.diameter[j]);
       worst = std::max(worst, (sum - d) / sum);
     }
   }
@@ -73,7 +74,8 @@ TEST(SettleGrains, LoosePackingFallsIntoABedAtRest) {
   GrainTable again = table;
   settle_grains(again, tank({}, corner), conditions());
   double moved = 0.0;
-  for (std::size_t i = 0; i < table.position.size(); ++i) moved += norm(again.position[i] - table.position[i]) / static_cast<double>(table.position.size());
+  for (std::size_t i = 0; i < table.position.size(); ++i)
+    moved += norm(again.position[i] - table.position[i]) / static_cast<double>(table.position.size());
   EXPECT_LT(moved, 0.01 * 0.02);
 }
 

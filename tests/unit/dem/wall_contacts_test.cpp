@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Grains against triangles: one contact per feature, no kicks at seams, no way through, moving bodies.
 #include <gtest/gtest.h>
-
 #include <omp.h>
 
 #include "grain_scene.hpp"
@@ -39,14 +38,16 @@ GrainTable one(const Vec3d& position, const Vec3d& velocity = {}, const Vec3d& s
 
 TEST_F(WallTest, ReboundFromFaceEdgeAndVertexOfABlock) {
   const TriangleTable box = block({0.4, 0.4, 0.2}, {0.6, 0.6, 0.4});
-  struct Shot { Vec3d from, velocity, after; };
+  struct Shot {
+    Vec3d from, velocity, after;
+  };
   // Elastic and smooth: v' = v - 2 (v.n) n with n the normal of the feature at the point of contact.
   const double e = 0.011 / std::sqrt(2.0), v = 0.011 / std::sqrt(3.0);
   const Shot shots[] = {
-      {{0.45, 0.52, 0.411}, {0.2, 0, -1}, {0.2, 0, 1}},                                              // face
-      {{0.5, 0.5, 0.411}, {0.2, 0, -1}, {0.2, 0, 1}},                                                // on the diagonal
-      {{0.6 + e, 0.513, 0.4 + e}, {-1, 0.3, -1}, {1, 0.3, 1}},                                       // edge
-      {{0.6 + v, 0.6 + v, 0.4 + v}, {-1, -1, -1}, {1, 1, 1}},                                        // vertex
+      {{0.45, 0.52, 0.411}, {0.2, 0, -1}, {0.2, 0, 1}},         // face
+      {{0.5, 0.5, 0.411}, {0.2, 0, -1}, {0.2, 0, 1}},           // on the diagonal
+      {{0.6 + e, 0.513, 0.4 + e}, {-1, 0.3, -1}, {1, 0.3, 1}},  // edge
+      {{0.6 + v, 0.6 + v, 0.4 + v}, {-1, -1, -1}, {1, 1, 1}},   // vertex
   };
   for (const Shot& shot : shots) {
     Grains grains({}, metre(), one(shot.from, shot.velocity), hard(), box, {});
@@ -57,10 +58,13 @@ TEST_F(WallTest, ReboundFromFaceEdgeAndVertexOfABlock) {
 }
 
 TEST_F(WallTest, OneContactOnFaceSeamFanAndCorner) {
-  struct Place { Vec3d at; int contacts; };
+  struct Place {
+    Vec3d at;
+    int contacts;
+  };
   // A floor of 0.1 m squares, each of two triangles: middle of a triangle, on edges, on a vertex of six triangles.
-  for (const Place& place : {Place{{0.53, 0.51, 0.0099}, 1}, Place{{0.55, 0.55, 0.0099}, 1}, Place{{0.5, 0.53, 0.0099}, 1},
-                             Place{{0.5, 0.5, 0.0099}, 1}}) {
+  for (const Place& place : {Place{{0.53, 0.51, 0.0099}, 1}, Place{{0.55, 0.55, 0.0099}, 1},
+                             Place{{0.5, 0.53, 0.0099}, 1}, Place{{0.5, 0.5, 0.0099}, 1}}) {
     Grains grains({}, metre(), one(place.at), hard(), floor_mesh(0, 1, 0, 1, 0, 0.1), {});
     grains.advance(1.0e-7, 1);
     EXPECT_EQ(grains.sums().wall_contacts, place.contacts) << place.at.x << " " << place.at.y;
@@ -74,8 +78,8 @@ TEST_F(WallTest, RollsOverSeamsWithoutAKick) {
   // Fine mesh (half a grain), rolling without slip in an odd direction from the resting height: nothing may change.
   ContactParameters p = hard(0.5, 0.5);
   const Vec3d v{0.31, 0.17, 0};
-  Grains grains({}, metre(), one({0.2, 0.3, 0.01}, v, {-v.y / 0.01, v.x / 0.01, 0}), p,
-                floor_mesh(0, 1, 0, 1, 0, 0.01), {0, 0, -9.81});
+  Grains grains({}, metre(), one({0.2, 0.3, 0.01}, v, {-v.y / 0.01, v.x / 0.01, 0}), p, floor_mesh(0, 1, 0, 1, 0, 0.01),
+                {0, 0, -9.81});
   grains.advance(0.1, 3000);
   const double rest = grains.table().position[0].z;
   const Vec3d rolling(grains.table().velocity[0]);
@@ -108,7 +112,8 @@ TEST_F(WallTest, NearlyFlatValleysDoNotStiffen) {
     if (at.x > 0.52) highest = std::max(highest, at.z);
   }
   EXPECT_GT(highest, 0.0);
-  EXPECT_LT(highest, 0.01 + 1.5e-4);  // turning the velocity by 2 degrees with e = 0.5 lifts (0.4 sin 2 0.5)^2/2g = 2.5e-6
+  EXPECT_LT(highest,
+            0.01 + 1.5e-4);  // turning the velocity by 2 degrees with e = 0.5 lifts (0.4 sin 2 0.5)^2/2g = 2.5e-6
 }
 
 TEST_F(WallTest, RestsInACornerAtTheHertzDepth) {
@@ -338,8 +343,8 @@ TEST_F(WallTest, BodiesGoOnBitForBitFromACheckpoint) {
   GrainTable table;
   Random random(8);
   for (int i = 0; i < 6 * 8 * 10; ++i) {
-    add_grain(table, {0.015 + 0.021 * (i % 8), 0.015 + 0.021 * (i / 8 % 6), 0.015 + 0.021 * (i / 48)}, 0.018 + 0.002 * random(),
-              2500);
+    add_grain(table, {0.015 + 0.021 * (i % 8), 0.015 + 0.021 * (i / 8 % 6), 0.015 + 0.021 * (i / 48)},
+              0.018 + 0.002 * random(), 2500);
   }
   const auto lift = [](Grains& grains, double begin, double end) {
     BodyMotionState body;

@@ -11,7 +11,7 @@ using testing::input_error;
 
 TEST(FreeBody, BoxHasTheTextbookInertia) {
   SolidPart part;
-  part.mesh = box_mesh({{1e5, 2, 3}, {1e5 + 1, 4, 6}});   // 1 x 2 x 3 m, far from the origin
+  part.mesh = box_mesh({{1e5, 2, 3}, {1e5 + 1, 4, 6}});  // 1 x 2 x 3 m, far from the origin
   const Body b = free_body("box", part, 700.0, {}, 3);
   const double mass = 700.0 * 6.0;
   EXPECT_NEAR(b.mass, mass, 1e-9 * mass);
@@ -94,7 +94,8 @@ TEST(Motion, CsvIsReadAndItsMistakesAreNamed) {
   ASSERT_EQ(m.time.size(), 2u);
   EXPECT_EQ(m.displacement[1].z, -1.0);
   EXPECT_MENTIONS(input_error([&] { read_motion(folder.write("b.csv", "0,0,0,0\n1,2\n")); }), "b.csv:2");
-  EXPECT_MENTIONS(input_error([&] { read_motion(folder.write("c.csv", "0,0,0,0\n0,1,1,1\n")); }), "times must increase");
+  EXPECT_MENTIONS(input_error([&] { read_motion(folder.write("c.csv", "0,0,0,0\n0,1,1,1\n")); }),
+                  "times must increase");
   EXPECT_MENTIONS(input_error([&] { read_motion(folder.write("d.csv", "t,dx,dy,dz\n")); }), "holds no line");
   EXPECT_MENTIONS(input_error([&] { read_motion(folder.file("none.csv")); }), "cannot be opened");
 }

@@ -34,7 +34,7 @@ TEST(CaseBuilder, TankIsFilledExactlyAndWalledThreeDeep) {
   BuildReport report;
   const Case c = build_case(tank_scene(0.02), report);
   EXPECT_EQ(c.fluid.position.size(), 20u * 10u * 10u);
-  EXPECT_EQ(c.boundary.position.size(), 26u * 16u * 18u - 20u * 10u * 15u);   // shell below the rim
+  EXPECT_EQ(c.boundary.position.size(), 26u * 16u * 18u - 20u * 10u * 15u);  // shell below the rim
   std::set<int> depths;
   for (std::size_t k = 0; k < c.boundary.position.size(); ++k) {
     const Vec3d& p = c.boundary.position[k];
@@ -45,9 +45,10 @@ TEST(CaseBuilder, TankIsFilledExactlyAndWalledThreeDeep) {
     EXPECT_GE(q.x, -1e-6);
     EXPECT_LE(q.x, 0.4 + 1e-6);
     EXPECT_GE(q.z, -1e-6);
-    if (p.x > 0 && p.x < 0.4 && p.y > 0 && p.y < 0.2) depths.insert(static_cast<int>(std::lround(c.boundary.depth[k] / 0.02 * 2)));
+    if (p.x > 0 && p.x < 0.4 && p.y > 0 && p.y < 0.2)
+      depths.insert(static_cast<int>(std::lround(c.boundary.depth[k] / 0.02 * 2)));
   }
-  EXPECT_EQ(depths, (std::set<int>{1, 3, 5}));   // dp/2, 3dp/2, 5dp/2 under the floor
+  EXPECT_EQ(depths, (std::set<int>{1, 3, 5}));  // dp/2, 3dp/2, 5dp/2 under the floor
   EXPECT_TRUE(report.notes.warnings.empty());
   EXPECT_EQ(c.walls.triangle.size(), 10u);
 }
@@ -61,7 +62,8 @@ TEST(CaseBuilder, PlanesOfSymmetryAreSmoothAndNoOtherFace) {
   int smooth = 0;
   for (std::size_t t = 0; t < c.walls.triangle.size(); ++t) {
     double least = 1.0;
-    for (int k = 0; k < 3; ++k) least = std::min(least, c.walls.vertex[static_cast<std::size_t>(c.walls.triangle[t][k])].y);
+    for (int k = 0; k < 3; ++k)
+      least = std::min(least, c.walls.vertex[static_cast<std::size_t>(c.walls.triangle[t][k])].y);
     EXPECT_EQ(c.walls.smooth[t], least > 0.2 - 1e-9 ? 1 : 0) << t;
     smooth += c.walls.smooth[t];
   }
@@ -125,7 +127,7 @@ TEST(CaseBuilder, GateIsABodyThatKeepsTheWaterOut) {
   EXPECT_EQ(c.fluid.position.size(), 17u * 10u * 10u);
   EXPECT_EQ(std::count(c.boundary.body.begin(), c.boundary.body.end(), 1), 3 * 10 * 15);
   EXPECT_EQ(std::count(c.walls.body.begin(), c.walls.body.end(), 1), 12);
-  EXPECT_GT(c.domain.upper.z, 0.3 + 0.4);   // where it is lifted to within time.end = 1 s
+  EXPECT_GT(c.domain.upper.z, 0.3 + 0.4);  // where it is lifted to within time.end = 1 s
 }
 
 // The same scene at UTM-like coordinates gives the same particles, to a millionth of dp.
@@ -161,7 +163,9 @@ TEST(CaseBuilder, LargeCoordinatesChangeNothing) {
 TEST(CaseBuilder, RowsOfALakeStandWhereTheyRest) {
   const Folder folder;
   const std::string name = folder.file("hill.asc");
-  write_esri_ascii(field(0.0, 0.0, 10.0, 31, 21, [](double x, double y) { return 3.0 * std::sin(0.05 * x) * std::cos(0.04 * y); }), name, 6);
+  write_esri_ascii(
+      field(0.0, 0.0, 10.0, 31, 21, [](double x, double y) { return 3.0 * std::sin(0.05 * x) * std::cos(0.04 * y); }),
+      name, 6);
   Scene s;
   s.dp = 0.5;
   s.terrain.files = {name};
@@ -180,14 +184,17 @@ TEST(CaseBuilder, RowsOfALakeStandWhereTheyRest) {
   }
   ASSERT_GT(rows.size(), 3u);
   std::size_t k = 0;
-  for (auto row = rows.rbegin(); k < 3; ++row, ++k) EXPECT_NEAR(*row, fill.level + (shift[k] - static_cast<double>(k) - 0.5) * s.dp, 1e-8);
+  for (auto row = rows.rbegin(); k < 3; ++row, ++k)
+    EXPECT_NEAR(*row, fill.level + (shift[k] - static_cast<double>(k) - 0.5) * s.dp, 1e-8);
   const double second = fill.level + (shift[1] - 1.5) * s.dp;
-  EXPECT_TRUE(std::any_of(rests.boundary.position.begin(), rests.boundary.position.end(), [&](const Vec3d& p) { return std::abs(p.z - second) < 1e-8; }))
-      << "the walls beside them too";
+  EXPECT_TRUE(std::any_of(rests.boundary.position.begin(), rests.boundary.position.end(), [&](const Vec3d& p) {
+    return std::abs(p.z - second) < 1e-8;
+  })) << "the walls beside them too";
   s.numerics.walls = "dynamic";
   const Case lattice = build_case(s, report);
   EXPECT_TRUE(lattice.fluid.pressure.empty());
-  for (const Vec3d& p : lattice.fluid.position) ASSERT_NEAR(std::remainder((fill.level - p.z) / s.dp - 0.5, 1.0), 0.0, 1e-9);
+  for (const Vec3d& p : lattice.fluid.position)
+    ASSERT_NEAR(std::remainder((fill.level - p.z) / s.dp - 0.5, 1.0), 0.0, 1e-9);
 }
 
 // Depth and normal of terrain walls against the plane they come from.
@@ -204,19 +211,21 @@ TEST(CaseBuilder, SlopeHasItsTrueDepthAndNormal) {
   double worst = 0.0;
   for (std::size_t k = 0; k < c.boundary.position.size(); ++k) {
     const Vec3d& p = c.boundary.position[k];
-    if (p.x < 5 || p.x > 90 || p.y < 4 || p.y > 46) continue;   // edges of the sheet have other nearest points
+    if (p.x < 5 || p.x > 90 || p.y < 4 || p.y > 46) continue;  // edges of the sheet have other nearest points
     const double depth = -dot(p, n);
     worst = std::max(worst, std::abs(std::max(depth, 0.05) - c.boundary.depth[k]));
     EXPECT_LE(depth, 3.0 + 1e-6);
     EXPECT_GE(depth, -1e-6);
     if (depth > 0.01) { EXPECT_GT(dot(static_cast<Vec3d>(c.boundary.normal[k]), n), 0.999); }
   }
-  EXPECT_LT(worst, 0.1);   // of a voxel
+  EXPECT_LT(worst, 0.1);  // of a voxel
 }
 
 TEST(CaseBuilder, BandMemoryGrowsWithAreaNotVolume) {
   const Folder folder;
-  write_esri_ascii(field(0, 0, 10.0, 21, 21, [](double x, double y) { return 30.0 * std::sin(0.03 * x) * std::cos(0.02 * y); }), folder.file("t.asc"), 4);
+  write_esri_ascii(
+      field(0, 0, 10.0, 21, 21, [](double x, double y) { return 30.0 * std::sin(0.03 * x) * std::cos(0.02 * y); }),
+      folder.file("t.asc"), 4);
   Scene s;
   s.terrain.files = {folder.file("t.asc")};
   std::size_t voxels[2];
@@ -246,7 +255,11 @@ TEST(CaseBuilder, PorousBedHoldsItsShareOfTheWater) {
 
 /// Ground at 20 m with a bowl down to 10 m, at coordinates as large as UTM's.
 Scene bowl_far_out(const Folder& folder) {
-  write_esri_ascii(field(571000, 5126000, 10.0, 21, 21, [](double x, double y) { return 20.0 - 10.0 * std::exp(-(std::pow(x - 571100, 2) + std::pow(y - 5126100, 2)) / 2500.0); }),
+  write_esri_ascii(field(571000, 5126000, 10.0, 21, 21,
+                         [](double x, double y) {
+                           return 20.0 -
+                                  10.0 * std::exp(-(std::pow(x - 571100, 2) + std::pow(y - 5126100, 2)) / 2500.0);
+                         }),
                    folder.file("t.asc"), 4);
   Scene s;
   s.dp = 4.0;
@@ -275,7 +288,7 @@ TEST(CaseBuilder, WhatLiesElsewhereIsNamedWithItsPlace) {
   const std::string text = warnings_of(s);
   EXPECT_MENTIONS(text, "gauge \"lost\" (x 0 m, y 0 m) lies outside the domain (x 570");
   EXPECT_EQ(text.find("good"), std::string::npos);
-  s.fluid.fill[0].level = 60.0;   // feet for metres
+  s.fluid.fill[0].level = 60.0;  // feet for metres
   EXPECT_MENTIONS(warnings_of(s), "stands above 100 % of the ground, whose highest point is at 19.99");
   s = bowl_far_out(folder);
   Slide slide;
@@ -306,9 +319,9 @@ TEST(CaseBuilder, SlideThatSettlesIsGivenToTheSolverAndNotWithoutOne) {
   EXPECT_NO_THROW(build_case(s, report, {.scope = BuildScope::counts_only}));
   report = {};
   const Case c = build_case(s, report, {.settler = [](GrainTable& grains, const TriangleTable&) {
-    for (Vec3d& p : grains.position) p.z -= 0.001;
-    return Settlement{.time = 2.0};
-  }});
+                              for (Vec3d& p : grains.position) p.z -= 0.001;
+                              return Settlement{.time = 2.0};
+                            }});
   ASSERT_TRUE(report.slides.at(0).settled.has_value());
   EXPECT_NEAR(report.slides[0].settled->fall, 0.001, 1e-12);
   EXPECT_EQ(c.grains.velocity.at(0).x, 1.0f);
@@ -335,12 +348,13 @@ TEST(CaseBuilder, RigidSlideAndFloatingBox) {
   EXPECT_EQ(c.bodies[0].kind, BodyKind::free);
   EXPECT_NEAR(c.bodies[0].mass, 2000 * 0.08 * 0.1 * 0.08, 1e-9);
   EXPECT_NEAR(c.bodies[1].mass, 500 * 0.12 * 0.12 * 0.08, 1e-9);
-  EXPECT_EQ(c.fluid.position.size(), 2000u - 6u * 6u * 2u);   // the raft's submerged half
+  EXPECT_EQ(c.fluid.position.size(), 2000u - 6u * 6u * 2u);  // the raft's submerged half
 }
 
 TEST(CaseBuilder, MeshBodyThinnerThanDpIsRefused) {
   const Folder folder;
-  std::ofstream(folder.file("plate.off")) << "OFF\n8 6 0\n0.1 0.05 0.101\n0.2 0.05 0.101\n0.1 0.15 0.101\n0.2 0.15 0.101\n0.1 0.05 0.103\n0.2 0.05 0.103\n0.1 0.15 0.103\n0.2 0.15 0.103\n"
+  std::ofstream(folder.file("plate.off")) << "OFF\n8 6 0\n0.1 0.05 0.101\n0.2 0.05 0.101\n0.1 0.15 0.101\n0.2 0.15 "
+                                             "0.101\n0.1 0.05 0.103\n0.2 0.05 0.103\n0.1 0.15 0.103\n0.2 0.15 0.103\n"
                                              "4 0 4 6 2\n4 1 3 7 5\n4 0 1 5 4\n4 2 6 7 3\n4 0 2 3 1\n4 4 5 7 6\n";
   Scene s = tank_scene(0.02);
   MovingBody plate;

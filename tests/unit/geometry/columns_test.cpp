@@ -15,7 +15,7 @@ TEST(Columns, OneCrossingOnEveryVertexEdgeAndDiagonal) {
   const TriangleMesh sheet = to_mesh(field(0, 0, 1.0, 21, 21, [](double x, double y) { return 0.3 * x - 0.2 * y; }));
   for (const double spacing : {1.0, 0.5, 0.25}) {
     const int n = static_cast<int>(19.0 / spacing);
-    const ColumnGrid grid{0.5, 0.5, spacing, n, n};   // on cell centres (diagonals), later also on nodes and edges
+    const ColumnGrid grid{0.5, 0.5, spacing, n, n};  // on cell centres (diagonals), later also on nodes and edges
     const ColumnGrid on_nodes{1.0, 1.0, spacing, n - 2, n - 2};
     for (const ColumnGrid& g : {grid, on_nodes}) {
       const Crossings c = cross_columns(sheet, g);
@@ -31,7 +31,7 @@ TEST(Columns, OneCrossingOnEveryVertexEdgeAndDiagonal) {
 // A closed mesh is crossed an even number of times wherever the column stands, vertices of the fan at the poles included.
 TEST(Columns, ClosedMeshIsAlwaysLeftAgain) {
   const TriangleMesh ball = sphere({0.0, 0.0, 0.0}, 1.0, 16);
-  const ColumnGrid grid{-1.25, -1.25, 0.125, 21, 21};   // the centre column runs through both poles
+  const ColumnGrid grid{-1.25, -1.25, 0.125, 21, 21};  // the centre column runs through both poles
   const Crossings c = cross_columns(ball, grid);
   for (std::size_t k = 0; k < grid.count(); ++k) {
     int sum = 0;
@@ -46,7 +46,7 @@ TEST(Columns, ClosedMeshIsAlwaysLeftAgain) {
 }
 
 TEST(Columns, VolumeConvergesToTheMeshVolume) {
-  const TriangleMesh ball = sphere({5.0e6, 4.0e6, 100.0}, 10.0, 40);   // coordinates as large as UTM's
+  const TriangleMesh ball = sphere({5.0e6, 4.0e6, 100.0}, 10.0, 40);  // coordinates as large as UTM's
   const double exact = signed_volume(ball);
   double last = 1.0;
   for (const double spacing : {1.0, 0.25}) {
@@ -76,7 +76,7 @@ TEST(Columns, UniteAndSubtract) {
   EXPECT_EQ(rest.interval[0].upper, 1);
   EXPECT_EQ(rest.interval[1].lower, 5);
   EXPECT_TRUE(a.contains(0, 0.0));
-  EXPECT_FALSE(a.contains(0, 2.0));   // half-open: a point between two touching solids is in exactly one
+  EXPECT_FALSE(a.contains(0, 2.0));  // half-open: a point between two touching solids is in exactly one
 }
 
 TEST(Columns, SheetHeightsMissWhereThereIsNoSheet) {
@@ -95,13 +95,14 @@ TEST(Columns, WindingsAgreeWithTheSphere) {
   const TriangleMesh ball = sphere({1.0, 2.0, 3.0}, 1.0, 60);
   std::vector<Vec3d> points;
   for (int k = 0; k < 4000; ++k) {
-    points.push_back({1.0 + 1.3 * std::sin(12.9898 * k), 2.0 + 1.3 * std::sin(78.233 * k + 1.0), 3.0 + 1.3 * std::sin(39.425 * k + 2.0)});
+    points.push_back({1.0 + 1.3 * std::sin(12.9898 * k), 2.0 + 1.3 * std::sin(78.233 * k + 1.0),
+                      3.0 + 1.3 * std::sin(39.425 * k + 2.0)});
   }
   const auto w = windings(ball, points);
   int inside = 0;
   for (std::size_t k = 0; k < points.size(); ++k) {
     const double r = norm(points[k] - Vec3d{1.0, 2.0, 3.0});
-    if (std::abs(r - 1.0) < 0.01) continue;   // within the facets' sag
+    if (std::abs(r - 1.0) < 0.01) continue;  // within the facets' sag
     ASSERT_EQ(w[k], r < 1.0 ? 1 : 0) << "radius " << r;
     inside += r < 1.0;
   }
@@ -117,7 +118,7 @@ TEST(Columns, EmptyInputs) {
 TEST(Lattice, RangesCoverExactly) {
   const Lattice l{{0, 0, 0}, 0.1, 3};
   EXPECT_EQ(l.first_at_or_above(0, 0.0), 0);
-  EXPECT_EQ(l.last_at_or_below(0, 0.3), 2);   // 0.25 is the last centre below 0.3
+  EXPECT_EQ(l.last_at_or_below(0, 0.3), 2);  // 0.25 is the last centre below 0.3
   EXPECT_NEAR(l.coordinate(2, -1), -0.05, 1e-15);
 }
 

@@ -13,7 +13,9 @@
 
 namespace gdesp::geometry::testing {
 
-struct Basin { double volume = 0.0, area = 0.0; };   // m3, m2
+struct Basin {
+  double volume = 0.0, area = 0.0;
+};  // m3, m2
 
 /// The part of a convex polygon where `height`, linear along its edges, is positive.
 template <class Height>
@@ -46,8 +48,8 @@ inline Basin exact_basin(const TriangleMesh& sheet, double level, const std::vec
     const Point2 &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
     turn += a.x * b.y - b.x * a.y;
   }
-  std::map<std::size_t, Basin> wet;                                                       // by triangle
-  std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::size_t>> across;       // submerged edges
+  std::map<std::size_t, Basin> wet;                                                  // by triangle
+  std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::size_t>> across;  // submerged edges
   for (std::size_t t = 0; t < sheet.triangle.size(); ++t) {
     const auto& corner = sheet.triangle[t];
     std::vector<Vec3d> part;
@@ -55,7 +57,9 @@ inline Basin exact_basin(const TriangleMesh& sheet, double level, const std::vec
     part = clipped(part, [&](const Vec3d& p) { return level - p.z; });
     for (std::size_t k = 0; k < polygon.size() && part.size() > 2; ++k) {
       const Point2 &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
-      part = clipped(part, [&](const Vec3d& p) { return std::copysign(1.0, turn) * ((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x)); });
+      part = clipped(part, [&](const Vec3d& p) {
+        return std::copysign(1.0, turn) * ((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x));
+      });
     }
     if (part.size() < 3) continue;
     wet[t] = prism(part, level);
@@ -89,7 +93,8 @@ inline Basin exact_basin(const TriangleMesh& sheet, double level, const std::vec
 /// Area of a raster's cells around the nodes below `level` that hang together with the place (x, y).
 inline double wet_cells_area(const Heightfield& f, double level, double x, double y) {
   std::vector<bool> seen(f.z.size(), false);
-  std::vector<std::pair<int, int>> stack = {{static_cast<int>(std::lround((x - f.x0) / f.dx)), static_cast<int>(std::lround((y - f.y0) / f.dy))}};
+  std::vector<std::pair<int, int>> stack = {
+      {static_cast<int>(std::lround((x - f.x0) / f.dx)), static_cast<int>(std::lround((y - f.y0) / f.dy))}};
   std::size_t cells = 0;
   while (!stack.empty()) {
     const auto [i, j] = stack.back();

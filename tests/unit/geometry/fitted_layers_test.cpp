@@ -26,7 +26,8 @@ struct Slope {
     for (std::int32_t i = -40; i < 40; ++i) {
       for (std::int32_t k = -60; k < 60; ++k) {
         const double s = dot(lattice.point({i, 0, k}), up);
-        if (std::abs(s) < fitted_band * dp) band.push_back({{i, 0, k}, static_cast<float>(s), static_cast<Vec3f>(up), 0});
+        if (std::abs(s) < fitted_band * dp)
+          band.push_back({{i, 0, k}, static_cast<float>(s), static_cast<Vec3f>(up), 0});
       }
     }
   }
@@ -34,11 +35,11 @@ struct Slope {
 };
 
 TEST(FittedLayers, CubeBelowPlaneByHand) {
-  EXPECT_NEAR(cube_below_plane({0, 0, 1}, 0.25), 0.75, 2e-3);          // slab
+  EXPECT_NEAR(cube_below_plane({0, 0, 1}, 0.25), 0.75, 2e-3);  // slab
   EXPECT_NEAR(cube_below_plane({0, 0, 1}, -0.6), 0.0, 1e-12);
   const double half = std::sqrt(0.5), third = std::sqrt(1.0 / 3.0);
-  EXPECT_NEAR(cube_below_plane({half, 0, half}, -0.25 * std::sqrt(2.0)), 0.125, 2e-3);   // prism of legs 1/2
-  EXPECT_NEAR(cube_below_plane({third, third, third}, -third), 1.0 / 48.0, 1e-9);        // corner of legs 1/2
+  EXPECT_NEAR(cube_below_plane({half, 0, half}, -0.25 * std::sqrt(2.0)), 0.125, 2e-3);  // prism of legs 1/2
+  EXPECT_NEAR(cube_below_plane({third, third, third}, -third), 1.0 / 48.0, 1e-9);       // corner of legs 1/2
   EXPECT_NEAR(cube_below_plane({third, third, third}, 0.0), 0.5, 1e-12);
   EXPECT_NEAR(cube_below_plane({0.6, 0, -0.8}, 0.3) + cube_below_plane({0.6, 0, -0.8}, -0.3), 1.0, 1e-9);
 }
@@ -81,8 +82,9 @@ TEST(FittedLayers, BesideWaterThatAsksForItTheLatticeStays) {
 }
 
 TEST(FittedLayers, ARidgeTooThinForALayerKeepsItsLatticePoints) {
-  TriangleMesh ridge;   // between z = 0 and z = 0.6 dp
-  ridge.vertex = {{-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0}, {-9, -9, 0.06}, {9, -9, 0.06}, {9, 9, 0.06}, {-9, 9, 0.06}};
+  TriangleMesh ridge;  // between z = 0 and z = 0.6 dp
+  ridge.vertex = {{-9, -9, 0},    {9, -9, 0},    {9, 9, 0},    {-9, 9, 0},
+                  {-9, -9, 0.06}, {9, -9, 0.06}, {9, 9, 0.06}, {-9, 9, 0.06}};
   ridge.triangle = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}};
   const Lattice lattice{{0, -0.5 * dp, 0}, dp, 2};
   std::vector<BandPoint> band;
@@ -94,14 +96,16 @@ TEST(FittedLayers, ARidgeTooThinForALayerKeepsItsLatticePoints) {
     }
   }
   const auto layers = fit_layers(band, {&ridge, lattice, {{-9, -9, -9}, {9, 9, 9}}, {}, {}, 0.0});
-  EXPECT_EQ(std::count_if(layers.begin(), layers.end(), [](const LayerPoint& p) { return std::abs(p.position.z - 0.05) < 1e-9; }), 20);
+  EXPECT_EQ(std::count_if(layers.begin(), layers.end(),
+                          [](const LayerPoint& p) { return std::abs(p.position.z - 0.05) < 1e-9; }),
+            20);
 }
 
 // What the pressure of still water feels: sum V0 grad W, of water and walls, with air above.
 double unevenness(const std::vector<Vec3d>& water, const BoundaryTable& walls, double h) {
   double worst = 0.0;
   for (const Vec3d& p : water) {
-    if (p.z > -0.4 || std::abs(p.x) > 1.0) continue;   // away from the surface, and from the ends
+    if (p.z > -0.4 || std::abs(p.x) > 1.0) continue;  // away from the surface, and from the ends
     Vec3d sum;
     for (const auto* list : {&water, &walls.position}) {
       for (const Vec3d& q : *list) {
@@ -129,7 +133,8 @@ TEST(WaterRelaxation, LeavesNothingForPressureToPushAgainst) {
     space.solid.interval.push_back({-1e300, ground});
     space.solid.first.push_back(space.solid.interval.size());
     for (std::int32_t k = -60; k < 0; ++k) {
-      if (slope.lattice.coordinate(2, k) > ground && slope.lattice.coordinate(2, k) < ground + 1.5) water.push_back(slope.lattice.point({i, 0, k}));
+      if (slope.lattice.coordinate(2, k) > ground && slope.lattice.coordinate(2, k) < ground + 1.5)
+        water.push_back(slope.lattice.point({i, 0, k}));
     }
   }
   std::vector<Vec3d> settled = water;

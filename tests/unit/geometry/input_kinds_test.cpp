@@ -18,7 +18,7 @@ using testing::field;
 using testing::Folder;
 using testing::input_error;
 
-constexpr double x0 = 500000.0, y0 = 5100000.0, level = 10.0, radius = 50.0;   // UTM zone 32 N, north of the Alps
+constexpr double x0 = 500000.0, y0 = 5100000.0, level = 10.0, radius = 50.0;  // UTM zone 32 N, north of the Alps
 
 /// A round bowl, 20 m deep, in a plain: z = 20 r^2 / 2500 up to 20 m.
 double bowl(double x, double y) {
@@ -33,7 +33,8 @@ Heightfield bowl_field(double west = 0.0, double east = 120.0) {
 
 void write_geotiff(const Heightfield& f, const std::string& path, int epsg, bool feet = false) {
   GDALAllRegister();
-  GDALDataset* data = GetGDALDriverManager()->GetDriverByName("GTiff")->Create(path.c_str(), f.nx, f.ny, 1, GDT_Float32, nullptr);
+  GDALDataset* data =
+      GetGDALDriverManager()->GetDriverByName("GTiff")->Create(path.c_str(), f.nx, f.ny, 1, GDT_Float32, nullptr);
   double where[6] = {f.x0 - 0.5 * f.dx, f.dx, 0.0, f.y0 + (f.ny - 0.5) * f.dy, 0.0, -f.dy};
   data->SetGeoTransform(where);
   OGRSpatialReference crs;
@@ -43,14 +44,16 @@ void write_geotiff(const Heightfield& f, const std::string& path, int epsg, bool
   for (int j = f.ny - 1; j >= 0; --j) {
     for (int i = 0; i < f.nx; ++i) z.push_back(static_cast<float>(f.at(i, j) / (feet ? 0.3048 : 1.0)));
   }
-  EXPECT_EQ(data->GetRasterBand(1)->RasterIO(GF_Write, 0, 0, f.nx, f.ny, z.data(), f.nx, f.ny, GDT_Float32, 0, 0), CE_None);
+  EXPECT_EQ(data->GetRasterBand(1)->RasterIO(GF_Write, 0, 0, f.nx, f.ny, z.data(), f.nx, f.ny, GDT_Float32, 0, 0),
+            CE_None);
   GDALClose(data);
 }
 
 std::string text_of(const TriangleMesh& m, const std::string& format) {
   std::string text;
   char line[120];
-  if (format == "off") text = "OFF\n" + std::to_string(m.vertex.size()) + " " + std::to_string(m.triangle.size()) + " 0\n";
+  if (format == "off")
+    text = "OFF\n" + std::to_string(m.vertex.size()) + " " + std::to_string(m.triangle.size()) + " 0\n";
   for (const auto& v : m.vertex) {
     std::snprintf(line, sizeof line, "%s%.4f %.4f %.6f\n", format == "obj" ? "v " : "", v.x, v.y, v.z);
     text += line;
@@ -58,7 +61,8 @@ std::string text_of(const TriangleMesh& m, const std::string& format) {
   if (format == "xyz") return text;
   const int first = format == "obj" ? 1 : 0;
   for (const auto& t : m.triangle) {
-    std::snprintf(line, sizeof line, "%s%d %d %d\n", format == "obj" ? "f " : "3 ", t.x + first, t.y + first, t.z + first);
+    std::snprintf(line, sizeof line, "%s%d %d %d\n", format == "obj" ? "f " : "3 ", t.x + first, t.y + first,
+                  t.z + first);
     text += line;
   }
   return text;
@@ -111,7 +115,7 @@ TEST(InputKinds, GeoTiffInLongitudeAndLatitudeGoesToUtm) {
   const std::unique_ptr<OGRCoordinateTransformation> there(OGRCreateCoordinateTransformation(&geographic, &utm));
   double lon = x0, lat = y0;
   ASSERT_TRUE(back->Transform(1, &lon, &lat));
-  const double step = 1.0 / 111200.0;   // about a metre north, 0.7 m east
+  const double step = 1.0 / 111200.0;  // about a metre north, 0.7 m east
   const Heightfield f = field(lon - 10 * step, lat - 10 * step, step, 195, 150, [&](double x, double y) {
     EXPECT_TRUE(there->Transform(1, &x, &y));
     return bowl(x, y);
@@ -130,7 +134,7 @@ TEST(InputKinds, EsriAsciiCornerAndCentre) {
 TEST(InputKinds, XyzPointsOnNoGrid) {
   const Folder folder;
   TriangleMesh m = to_mesh(bowl_field());
-  for (std::size_t k = 0; k < m.vertex.size(); ++k) {   // shaken, so that no raster reader takes it
+  for (std::size_t k = 0; k < m.vertex.size(); ++k) {  // shaken, so that no raster reader takes it
     m.vertex[k].x += 0.3 * std::sin(7.0 * static_cast<double>(k));
     m.vertex[k].z = bowl(m.vertex[k].x, m.vertex[k].y);
   }
@@ -152,7 +156,10 @@ TEST(InputKinds, FoldedTerrainIsRefusedWithItsPlace) {
   TriangleMesh roof = to_mesh(field(x0 + 20, y0 + 20, 20.0, 3, 3, [](double, double) { return 30.0; }));
   append(m, roof);
   const std::string path = folder.write("folded.obj", text_of(m, "obj"));
-  const std::string message = input_error([&] { BuildReport r; build_case(lake({path}), r); });
+  const std::string message = input_error([&] {
+    BuildReport r;
+    build_case(lake({path}), r);
+  });
   EXPECT_MENTIONS(message, "folded.obj: no terrain sheet: folds over itself");
   EXPECT_MENTIONS(message, "e.g. at (50");
 }
@@ -177,10 +184,10 @@ TEST(InputKinds, StepThroughGmshAtAStatedSize) {
   gmsh::model::add("box");
   gmsh::model::occ::addBox(0, 0, 0, 1000, 2000, 3000);
   gmsh::model::occ::synchronize();
-  gmsh::write(folder.file("box.step"));   // STEP states its unit: millimetres here
+  gmsh::write(folder.file("box.step"));  // STEP states its unit: millimetres here
   gmsh::finalize();
   MeshOptions o;
-  o.mesh_size = 0.2;   // at most: a coarser wish gets what gmsh finds right for the body
+  o.mesh_size = 0.2;  // at most: a coarser wish gets what gmsh finds right for the body
   const TriangleMesh m = read_mesh(folder.file("box.step"), o);
   EXPECT_EQ(border_edges(m), 0u);
   EXPECT_NEAR(std::abs(signed_volume(m)), 6.0, 1e-9);
@@ -193,8 +200,9 @@ TEST(InputKinds, GeoFilesMayDescribeShapesOnly) {
   const std::string target = folder.file("written.txt");
   MeshOptions o;
   o.mesh_size = 1.0;
-  const std::string attacks[] = {"// harmless\n\nSystemCall \"touch " + target + "\";\n", "Print \"" + target + "\";\n", "Printf(\"x\") > \"" + target + "\";\n",
-                                 "Save \"" + target + "\";\n", "Merge \"/etc/passwd\";\n"};
+  const std::string attacks[] = {"// harmless\n\nSystemCall \"touch " + target + "\";\n", "Print \"" + target + "\";\n",
+                                 "Printf(\"x\") > \"" + target + "\";\n", "Save \"" + target + "\";\n",
+                                 "Merge \"/etc/passwd\";\n"};
   for (const auto& text : attacks) {
     EXPECT_MENTIONS(input_error([&] { read_mesh(folder.write("a.geo", text), o); }), "may only describe geometry");
     EXPECT_MENTIONS(input_error([&] { read_mesh(folder.write("a.msh", text), o); }), "does not begin with $MeshFormat");

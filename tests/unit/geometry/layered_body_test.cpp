@@ -12,7 +12,8 @@ using testing::input_error;
 
 TerrainSheet slope(double d) {
   TerrainSheet t;
-  t.mesh = to_mesh(field(0, 0, d, static_cast<int>(100 / d) + 1, static_cast<int>(100 / d) + 1, [](double x, double y) { return 0.5 * x + 0.1 * y; }));
+  t.mesh = to_mesh(field(0, 0, d, static_cast<int>(100 / d) + 1, static_cast<int>(100 / d) + 1,
+                         [](double x, double y) { return 0.5 * x + 0.1 * y; }));
   t.spacing = d;
   return t;
 }
@@ -56,7 +57,9 @@ TEST(LayeredBody, PolygonWithUniformThickness) {
 // A negative thickness is a body below the terrain: the terrain is dug out, and the body fills the hole to the old surface.
 TEST(LayeredBody, NegativeThicknessDigsTheTerrainOut) {
   const Folder folder;
-  write_esri_ascii(field(0, 0, 5, 21, 21, [](double x, double y) { return x >= 30 && x <= 60 && y >= 40 && y <= 70 ? -3.0 : 0.0; }), folder.file("depth.asc"), 3);
+  write_esri_ascii(
+      field(0, 0, 5, 21, 21, [](double x, double y) { return x >= 30 && x <= 60 && y >= 40 && y <= 70 ? -3.0 : 0.0; }),
+      folder.file("depth.asc"), 3);
   TerrainSheet terrain = slope(5.0);
   const TriangleMesh before = terrain.mesh;
   Scene s;
@@ -77,7 +80,8 @@ TEST(LayeredBody, BetweenTwoSurfaces) {
   const Folder folder;
   const auto bump = [](double x, double y) { return std::max(0.0, 5.0 - 0.2 * std::hypot(x - 50, y - 50)); };
   write_esri_ascii(field(0, 0, 2, 51, 51, [](double, double) { return 10.0; }), folder.file("below.asc"), 6);
-  write_esri_ascii(field(0, 0, 2, 51, 51, [&](double x, double y) { return 10.0 + bump(x, y); }), folder.file("above.asc"), 6);
+  write_esri_ascii(field(0, 0, 2, 51, 51, [&](double x, double y) { return 10.0 + bump(x, y); }),
+                   folder.file("above.asc"), 6);
   TerrainSheet terrain;
   Scene s;
   s.dp = 1.0;

@@ -44,12 +44,14 @@ TEST(MeshCheck, SmallHoleIsClosedLargeOneRefusedWithItsPlace) {
   small.triangle.erase(small.triangle.begin() + 200, small.triangle.begin() + 204);
   EXPECT_EQ(check_and_repair(small, MeshPurpose::solid).verdict, MeshVerdict::repaired);
   EXPECT_NEAR(signed_volume(small), signed_volume(m), 0.01 * signed_volume(m));
-  std::erase_if(large.triangle, [&](const Triangle& t) { return large.vertex[t.x].z > 0.2 || large.vertex[t.y].z > 0.2 || large.vertex[t.z].z > 0.2; });
+  std::erase_if(large.triangle, [&](const Triangle& t) {
+    return large.vertex[t.x].z > 0.2 || large.vertex[t.y].z > 0.2 || large.vertex[t.z].z > 0.2;
+  });
   const TriangleMesh before = large;
   const MeshReport r = check_and_repair(large, MeshPurpose::solid);
   EXPECT_EQ(r.verdict, MeshVerdict::refused);
   EXPECT_MENTIONS(r.refusal, "around (100,");
-  EXPECT_EQ(large.triangle.size(), before.triangle.size());   // a refused mesh is left as it came
+  EXPECT_EQ(large.triangle.size(), before.triangle.size());  // a refused mesh is left as it came
 }
 
 TEST(MeshCheck, DuplicatesAndDegeneratesGo) {
@@ -57,7 +59,7 @@ TEST(MeshCheck, DuplicatesAndDegeneratesGo) {
   m.triangle.push_back(m.triangle[3]);
   m.triangle.push_back({1, 1, 2});
   m.vertex.push_back(m.vertex[0]);
-  m.triangle[0].x = m.triangle[0].x == 0 ? 8 : m.triangle[0].x;   // one facet uses the twin of vertex 0
+  m.triangle[0].x = m.triangle[0].x == 0 ? 8 : m.triangle[0].x;  // one facet uses the twin of vertex 0
   const MeshReport r = check_and_repair(m, MeshPurpose::solid);
   EXPECT_EQ(r.verdict, MeshVerdict::repaired) << r.refusal;
   EXPECT_EQ(r.duplicate_triangles, 1u);
@@ -70,7 +72,7 @@ TEST(MeshCheck, TrianglesBackToBackGoADoubledFacetStaysOnce) {
   TriangleMesh flap = box_mesh({{0, 0, 0}, {1, 1, 1}});
   const Triangle edge = flap.triangle[0];
   flap.vertex.push_back({3, 3, 3});
-  flap.triangle.push_back({edge.x, edge.y, 8});   // where two layers thin out to nothing
+  flap.triangle.push_back({edge.x, edge.y, 8});  // where two layers thin out to nothing
   flap.triangle.push_back({edge.y, edge.x, 8});
   const MeshReport r = check_and_repair(flap, MeshPurpose::solid);
   EXPECT_EQ(r.verdict, MeshVerdict::repaired) << r.refusal;
@@ -107,7 +109,7 @@ TEST(MeshCheck, SmallHolesInASheetAreClosedLargeOnesStay) {
 
 TEST(MeshCheck, TwoTouchingBoxesAreCutApartAFinIsRefused) {
   TriangleMesh two = box_mesh({{0, 0, 0}, {1, 1, 1}});
-  append(two, box_mesh({{1, 1, 0}, {2, 2, 1}}));   // they share one vertical edge
+  append(two, box_mesh({{1, 1, 0}, {2, 2, 1}}));  // they share one vertical edge
   EXPECT_EQ(check_and_repair(two, MeshPurpose::solid).verdict, MeshVerdict::repaired);
   EXPECT_NEAR(signed_volume(two), 2.0, 1e-12);
   TriangleMesh fin = box_mesh({{0, 0, 0}, {1, 1, 1}});
@@ -125,7 +127,11 @@ TEST(MeshCheck, TerrainSheetIsASheet) {
   EXPECT_TRUE(r.sheet);
   EXPECT_FALSE(r.closed);
   TriangleMesh slide = m;
-  EXPECT_MENTIONS(input_error([&] { std::vector<std::string> done; require_solid(slide, "slide.stl", done); }), "slide.stl: no closed solid");
+  EXPECT_MENTIONS(input_error([&] {
+                    std::vector<std::string> done;
+                    require_solid(slide, "slide.stl", done);
+                  }),
+                  "slide.stl: no closed solid");
 }
 
 TEST(MeshCheck, FlatMeshHasNoVolume) {

@@ -21,14 +21,15 @@ TEST(RasterReader, CornerAndCentreConventionsDifferByHalfACell) {
   EXPECT_EQ(a.y0, 205.0);
   EXPECT_EQ(b.x0, 100.0);
   EXPECT_EQ(b.y0, 200.0);
-  EXPECT_EQ(a.at(0, 0), 4.0);   // the last row of the file is the southern one
+  EXPECT_EQ(a.at(0, 0), 4.0);  // the last row of the file is the southern one
   EXPECT_EQ(a.at(2, 1), 3.0);
   EXPECT_TRUE(std::isnan(a.at(2, 0)));
 }
 
 TEST(RasterReader, WritesAndReadsBackTheSame) {
   const Folder folder;
-  const Heightfield f = field(72000.5, 35000.25, 30, 7, 5, [](double x, double y) { return 2000 + 0.1 * (x - 72000) - 0.2 * (y - 35000); });
+  const Heightfield f = field(72000.5, 35000.25, 30, 7, 5,
+                              [](double x, double y) { return 2000 + 0.1 * (x - 72000) - 0.2 * (y - 35000); });
   write_esri_ascii(f, folder.file("f.asc"), 3);
   const Heightfield g = read_raster(folder.file("f.asc"), {}).field;
   ASSERT_EQ(g.nx, f.nx);
@@ -38,7 +39,8 @@ TEST(RasterReader, WritesAndReadsBackTheSame) {
 
 TEST(RasterReader, UnitsSignAndDatum) {
   const Folder folder;
-  const std::string path = folder.write("feet.asc", "ncols 2\nnrows 2\nxllcenter 0\nyllcenter 0\ncellsize 1000\n10 20\n30 40\n");
+  const std::string path =
+      folder.write("feet.asc", "ncols 2\nnrows 2\nxllcenter 0\nyllcenter 0\ncellsize 1000\n10 20\n30 40\n");
   RasterOptions o;
   o.scale = 0.3048;
   o.vertical_scale = -0.3048;
@@ -75,29 +77,33 @@ TEST(RasterReader, CoarseTileFillsAroundAFineOne) {
 
 TEST(RasterReader, ReprojectsLongitudeAndLatitude) {
   const Folder folder;
-  const std::string path = folder.write("lonlat.asc", "ncols 3\nnrows 3\nxllcenter 176.58\nyllcenter -38.05\ncellsize 0.001\n1 1 1\n1 1 1\n1 1 1\n");
+  const std::string path = folder.write(
+      "lonlat.asc", "ncols 3\nnrows 3\nxllcenter 176.58\nyllcenter -38.05\ncellsize 0.001\n1 1 1\n1 1 1\n1 1 1\n");
   RasterOptions o;
   o.crs = "EPSG:4326";
   o.target_crs = "EPSG:2193";
   const Raster r = read_raster(path, o);
   const Box b = bounds(r.field);
-  EXPECT_NEAR(b.lower.x, 1914155, 150);   // transverse Mercator series by hand for 176.58 E, 38.05 S; cells are 100 m
+  EXPECT_NEAR(b.lower.x, 1914155, 150);  // transverse Mercator series by hand for 176.58 E, 38.05 S; cells are 100 m
   EXPECT_NEAR(b.lower.y, 5782540, 150);
   o.target_crs.clear();
-  EXPECT_GT(read_raster(path, o).field.x0, 1e5);   // degrees never reach a scene: UTM is taken
+  EXPECT_GT(read_raster(path, o).field.x0, 1e5);  // degrees never reach a scene: UTM is taken
 }
 
 TEST(RasterReader, SaysWhatIsWrong) {
   const Folder folder;
   EXPECT_MENTIONS(input_error([&] { read_raster(folder.file("none.asc"), {}); }), "no such file");
-  EXPECT_MENTIONS(input_error([&] { read_raster(folder.write("a.tif", "garbage"), {}); }), "no raster that can be read");
+  EXPECT_MENTIONS(input_error([&] { read_raster(folder.write("a.tif", "garbage"), {}); }),
+                  "no raster that can be read");
   const std::string cut = folder.write("cut.asc", "ncols 30\nnrows 20\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3\n");
   EXPECT_MENTIONS(input_error([&] { read_raster(cut, {}); }), "cut.asc");
-  const std::string empty = folder.write("empty.asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9\n-9 -9\n-9 -9\n");
+  const std::string empty = folder.write(
+      "empty.asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9\n-9 -9\n-9 -9\n");
   EXPECT_MENTIONS(input_error([&] { read_raster(empty, {}); }), "no elevation at all");
   RasterOptions o;
   o.crs = "EPSG:banana";
-  const std::string good = folder.write("good.asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2\n3 4\n");
+  const std::string good =
+      folder.write("good.asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2\n3 4\n");
   EXPECT_MENTIONS(input_error([&] { read_raster(good, o); }), "EPSG:banana");
 }
 
@@ -114,7 +120,7 @@ TEST(PointReader, ReadsColumnsWithAndWithoutHeader) {
 TEST(Triangulation, PointsSpanTheirHull) {
   std::vector<Vec3d> points = {{0, 0, 1}, {4, 0, 1}, {4, 3, 1}, {0, 3, 1}, {2, 1, 5}, {2, 1, 7}};
   const TriangleMesh m = triangulate_points(points);
-  EXPECT_EQ(m.vertex.size(), 5u);   // the double point has become one, at the mean height
+  EXPECT_EQ(m.vertex.size(), 5u);  // the double point has become one, at the mean height
   double area = 0.0;
   for (const auto& t : m.triangle) area += 0.5 * cross(m.vertex[t.y] - m.vertex[t.x], m.vertex[t.z] - m.vertex[t.x]).z;
   EXPECT_NEAR(area, 12.0, 1e-12);

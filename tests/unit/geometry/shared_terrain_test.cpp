@@ -53,7 +53,8 @@ Scene alpe_gera() {
 TEST(SharedTerrain, AlpeGeraVolumes) {
   NEEDS("alpe_gera_it");
   Scene s = alpe_gera();
-  EXPECT_NEAR(exact(s).volume, 44.2e6, 0.002 * 44.2e6);   // stated with three digits, from the vertices times their cells
+  EXPECT_NEAR(exact(s).volume, 44.2e6,
+              0.002 * 44.2e6);  // stated with three digits, from the vertices times their cells
   expect_basin(s, {16.0, 8.0}, 0.001);
   double last = 1.0;
   for (const double dp : {16.0, 8.0}) {
@@ -72,9 +73,9 @@ TEST(SharedTerrain, CampoMoroVolume) {
   Scene s = lake("alpe_gera_it/Alpe_Gera_dam_break_no_volume_correction.obj", 1953.0, 4.0);
   s.fluid.fill[0].polygon = {{71245, 34335}, {72045, 34335}, {72045, 33865}, {71245, 33865}};
   s.domain = Box{{71100, 33700, 1850}, {72200, 34500, 2050}};
-  EXPECT_NEAR(exact(s).volume, 0.92e6, 0.01 * 0.92e6);    // stated with two digits
+  EXPECT_NEAR(exact(s).volume, 0.92e6, 0.01 * 0.92e6);  // stated with two digits
   expect_basin(s, {8.0, 4.0, 2.0}, 0.001);
-  for (const double dp : {4.0, 2.0}) {   // a shallow lake with a flat bed: its depth is rounded to whole spacings
+  for (const double dp : {4.0, 2.0}) {  // a shallow lake with a flat bed: its depth is rounded to whole spacings
     s.dp = dp;
     BuildReport report;
     build_case(s, report);
@@ -97,7 +98,8 @@ TEST(SharedTerrain, RotomaFromTheMergedBed) {
   const testing::Basin basin = exact(s);
   EXPECT_NEAR(basin.volume, 436e6, 0.002 * 436e6);
   EXPECT_NEAR(basin.area, 11.1e6 - 0.5 * 32.0 * 24.9e3, 0.02 * 11.1e6);
-  EXPECT_NEAR(testing::wet_cells_area(read_raster(s.terrain.files[0], {}).field, 313.30, 1915527, 5783671), 11.1e6, 0.01 * 11.1e6);
+  EXPECT_NEAR(testing::wet_cells_area(read_raster(s.terrain.files[0], {}).field, 313.30, 1915527, 5783671), 11.1e6,
+              0.01 * 11.1e6);
   expect_basin(s, {32.0, 16.0}, 0.001);
 }
 
@@ -151,7 +153,7 @@ TEST(SharedTerrain, DirtyMeshesAreJudgedWithoutACrash) {
   NEEDS("dirty_meshes");
   const auto verdict = [](const char* name) { return check_file(terrain + "dirty_meshes/" + name).verdict; };
   EXPECT_EQ(verdict("cgal__blobby-shuffled.off"), MeshVerdict::repaired);
-  EXPECT_EQ(verdict("cgal__cube-ouvert.off"), MeshVerdict::refused);   // a whole side is missing
+  EXPECT_EQ(verdict("cgal__cube-ouvert.off"), MeshVerdict::refused);  // a whole side is missing
   EXPECT_EQ(verdict("cgal__tetra_intersected_by_triangle.off"), MeshVerdict::refused);
   EXPECT_EQ(verdict("cgal__bones.off"), MeshVerdict::repaired);
   EXPECT_NE(verdict("cgal__pig.off"), MeshVerdict::usable);

@@ -14,7 +14,7 @@
 namespace gdesp::geometry {
 namespace {
 
-constexpr double bound = 1.01 * packing_overlap;   // diameters are stored as float
+constexpr double bound = 1.01 * packing_overlap;  // diameters are stored as float
 
 PackingRequest box_request(const Box& box, double diameter, double porosity) {
   PackingRequest r;
@@ -117,9 +117,11 @@ TEST(SpherePacking, UniformDiametersFillTheirWidthEvenly) {
   for (const float d : p.diameter) {
     ASSERT_GE(d, 0.06f);
     ASSERT_LE(d, 0.1f);
-    quarter[std::min<std::size_t>(3, static_cast<std::size_t>((d - 0.06f) / 0.01f))] += 1.0 / static_cast<double>(p.diameter.size());
+    quarter[std::min<std::size_t>(3, static_cast<std::size_t>((d - 0.06f) / 0.01f))] +=
+        1.0 / static_cast<double>(p.diameter.size());
   }
-  for (const double share : quarter) EXPECT_NEAR(share, 0.25, 4.0 * std::sqrt(0.25 * 0.75 / static_cast<double>(p.diameter.size())));
+  for (const double share : quarter)
+    EXPECT_NEAR(share, 0.25, 4.0 * std::sqrt(0.25 * 0.75 / static_cast<double>(p.diameter.size())));
 }
 
 /// Spheres of one diameter d that touch, layer on layer; `lift` above the floor of a box ten diameters high.
@@ -140,13 +142,16 @@ TEST(PackingSettlement, TellsFallAndPorosityOfTheBedAndLeavesOutWhatEscapes) {
   const Box box{{0, 0, 0}, {6 * d, 6 * d, 10 * d}};
   Packing p = cubic_bed(d, 6, 5, 2.0 * d);
   const PackingRequest r = box_request(box, d, 0.5);
-  const SettledBed bed = settle_packing(r, 2650.0, [&](GrainTable& grains, const TriangleTable& walls) {
-    EXPECT_EQ(walls.triangle.size(), 12u);
-    for (const float density : grains.density) EXPECT_EQ(density, 2650.0f);
-    for (Vec3d& q : grains.position) q.z -= 2.0 * d;
-    grains.position.back().z = -3.0 * d;
-    return Settlement{.time = 1.0, .at_rest = true};
-  }, p);
+  const SettledBed bed = settle_packing(
+      r, 2650.0,
+      [&](GrainTable& grains, const TriangleTable& walls) {
+        EXPECT_EQ(walls.triangle.size(), 12u);
+        for (const float density : grains.density) EXPECT_EQ(density, 2650.0f);
+        for (Vec3d& q : grains.position) q.z -= 2.0 * d;
+        grains.position.back().z = -3.0 * d;
+        return Settlement{.time = 1.0, .at_rest = true};
+      },
+      p);
   EXPECT_EQ(p.left_out, 1u);
   EXPECT_EQ(p.position.size(), 179u);
   EXPECT_NEAR(bed.fall, 2.0 * d, 0.02 * d);
@@ -174,7 +179,9 @@ TriangleMesh slope_layer(double length, double thickness, int n) {
     for (int i = 0; i <= n; ++i) {
       for (int j = 0; j <= n; ++j) {
         const double x = length * i / n, y = length * j / n;
-        m.vertex.push_back({x, y, 0.5 * x + 0.05 * length * std::sin(9.0 * x / length) * std::cos(11.0 * y / length) + side * thickness});
+        m.vertex.push_back(
+            {x, y,
+             0.5 * x + 0.05 * length * std::sin(9.0 * x / length) * std::cos(11.0 * y / length) + side * thickness});
       }
     }
   }
@@ -217,7 +224,8 @@ TEST(SpherePacking, TerrainShapedSlideHasNoGrainOutside) {
   for (const int inside : windings(body, p.position)) EXPECT_GT(inside, 0);
   const TriangleTree surface(body);
   for (std::size_t k = 0; k < p.position.size(); ++k) {
-    EXPECT_GT(surface.nearest(p.position[k], r.diameter).distance, (0.5 - bound) * p.diameter[k]) << "grain " << k << " sticks out";
+    EXPECT_GT(surface.nearest(p.position[k], r.diameter).distance, (0.5 - bound) * p.diameter[k])
+        << "grain " << k << " sticks out";
   }
 }
 
@@ -231,7 +239,10 @@ TEST(SpherePacking, TooDenseLeavesGrainsOut) {
 }
 
 TEST(SpherePacking, NothingFits) {
-  EXPECT_MENTIONS(testing::input_error([] { pack_spheres(box_request({{0, 0, 0}, {1, 1, 1}}, 3.0, 0.4)); }), "no grain");
+  EXPECT_MENTIONS(testing::input_error([] {
+                    pack_spheres(box_request({{0, 0, 0}, {1, 1, 1}}, 3.0, 0.4));
+                  }),
+                  "no grain");
 }
 
 // The faces towards y of a plane scene may be nearer than the radius: they bound nothing there.

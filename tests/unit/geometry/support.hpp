@@ -20,7 +20,9 @@ namespace gdesp::geometry::testing {
 /// A fresh folder, removed at the end.
 class Folder {
  public:
-  Folder() : path_(std::filesystem::temp_directory_path() / ("gdesp-geometry-" + std::to_string(::getpid()) + "-" + std::to_string(++count()))) {
+  Folder()
+      : path_(std::filesystem::temp_directory_path() /
+              ("gdesp-geometry-" + std::to_string(::getpid()) + "-" + std::to_string(++count()))) {
     std::filesystem::create_directories(path_);
   }
   ~Folder() { std::filesystem::remove_all(path_); }
@@ -49,7 +51,8 @@ inline TriangleMesh sphere(const Vec3d& centre, double radius, int bands) {
   for (int b = 1; b < bands; ++b) {
     for (int a = 0; a < around; ++a) {
       const double t = pi * b / bands - 0.5 * pi, p = 2.0 * pi * a / around;
-      m.vertex.push_back(centre + Vec3d{radius * std::cos(t) * std::cos(p), radius * std::cos(t) * std::sin(p), radius * std::sin(t)});
+      m.vertex.push_back(
+          centre + Vec3d{radius * std::cos(t) * std::cos(p), radius * std::cos(t) * std::sin(p), radius * std::sin(t)});
     }
   }
   m.vertex.push_back(centre + Vec3d{0, 0, radius});
@@ -67,7 +70,8 @@ inline TriangleMesh sphere(const Vec3d& centre, double radius, int bands) {
 }
 
 /// Elevations from a function.
-inline Heightfield field(double x0, double y0, double d, int nx, int ny, const std::function<double(double, double)>& z) {
+inline Heightfield field(double x0, double y0, double d, int nx, int ny,
+                         const std::function<double(double, double)>& z) {
   Heightfield f;
   f.x0 = x0, f.y0 = y0, f.dx = f.dy = d, f.nx = nx, f.ny = ny;
   f.z.resize(static_cast<std::size_t>(nx) * ny);

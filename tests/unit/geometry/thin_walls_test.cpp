@@ -12,8 +12,10 @@ constexpr double dp = 0.02;
 
 std::string obj(const TriangleMesh& m) {
   std::string text;
-  for (const auto& v : m.vertex) text += "v " + std::to_string(v.x) + " " + std::to_string(v.y) + " " + std::to_string(v.z) + "\n";
-  for (const auto& t : m.triangle) text += "f " + std::to_string(t.x + 1) + " " + std::to_string(t.y + 1) + " " + std::to_string(t.z + 1) + "\n";
+  for (const auto& v : m.vertex)
+    text += "v " + std::to_string(v.x) + " " + std::to_string(v.y) + " " + std::to_string(v.z) + "\n";
+  for (const auto& t : m.triangle)
+    text += "f " + std::to_string(t.x + 1) + " " + std::to_string(t.y + 1) + " " + std::to_string(t.z + 1) + "\n";
   return text;
 }
 

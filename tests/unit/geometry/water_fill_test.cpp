@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "geometry/case_builder.hpp"
-
 #include <algorithm>
 #include <array>
 
+#include "geometry/case_builder.hpp"
 #include "particles/surface_rows.hpp"
 #include "support.hpp"
 
@@ -85,7 +84,8 @@ TEST(WaterFill, TheWaterSurfaceLiesAtTheLevel) {
   const Case c = build_case(bowls(folder, 2.0), report);
   double top = -1e9;
   for (const auto& p : c.fluid.position) top = std::max(top, p.z + c.offset.z);
-  EXPECT_NEAR(top, 10.0 - 1.0 + 2.0 * surface_row_shifts(1.5, 3)[0], 1e-9);   // centre of the uppermost cell, and where its row rests
+  EXPECT_NEAR(top, 10.0 - 1.0 + 2.0 * surface_row_shifts(1.5, 3)[0],
+              1e-9);  // centre of the uppermost cell, and where its row rests
   EXPECT_NEAR(c.still_water_level + c.offset.z, 10.0, 1e-9);
 }
 
@@ -102,7 +102,7 @@ TEST(WaterFill, FluidAndWallsCompleteTheLattice) {
   for (const auto& p : c.fluid.position) all.push_back(key(lattice(p)));
   for (const auto& p : c.boundary.position) all.push_back(key(lattice(p)));
   std::sort(all.begin(), all.end());
-  EXPECT_EQ(std::adjacent_find(all.begin(), all.end()), all.end());   // nothing twice
+  EXPECT_EQ(std::adjacent_find(all.begin(), all.end()), all.end());  // nothing twice
   std::size_t missing = 0;
   for (const auto& p : c.fluid.position) {
     for (int dx = -2; dx <= 2; ++dx) {
@@ -120,12 +120,15 @@ TEST(WaterFill, FluidAndWallsCompleteTheLattice) {
 // A bed that runs exactly through lattice points: each of them is water or wall, not both and not neither.
 TEST(WaterFill, BedThroughLatticePoints) {
   const Folder folder;
-  write_esri_ascii(field(0, 0, 2.0, 21, 21, [](double x, double y) { return std::max(std::abs(x - 20), std::abs(y - 20)) > 14 ? 20.0 : 0.0; }), folder.file("pan.asc"), 3);
+  write_esri_ascii(
+      field(0, 0, 2.0, 21, 21,
+            [](double x, double y) { return std::max(std::abs(x - 20), std::abs(y - 20)) > 14 ? 20.0 : 0.0; }),
+      folder.file("pan.asc"), 3);
   Scene s;
   s.dp = 2.0;
   s.terrain.files = {folder.file("pan.asc")};
   FluidFill fill;
-  fill.level = 5.0;   // cell centres at 4, 2, 0: the bed
+  fill.level = 5.0;  // cell centres at 4, 2, 0: the bed
   fill.seed = Point2{20, 20};
   s.fluid.fill = {fill};
   BuildReport report;
@@ -134,7 +137,8 @@ TEST(WaterFill, BedThroughLatticePoints) {
   for (const auto* list : {&c.fluid.position, &c.boundary.position}) {
     for (const auto& placed : *list) {
       const Vec3d p = on_lattice(placed, 5.0, s.dp);
-      if (std::abs(p.x - 20) < 8 && std::abs(p.y - 20) < 8 && p.z > -5.0) all.push_back({std::lround(p.x * 1e3), std::lround(p.y * 1e3), std::lround(p.z * 1e3)});
+      if (std::abs(p.x - 20) < 8 && std::abs(p.y - 20) < 8 && p.z > -5.0)
+        all.push_back({std::lround(p.x * 1e3), std::lround(p.y * 1e3), std::lround(p.z * 1e3)});
     }
   }
   std::sort(all.begin(), all.end());
@@ -161,14 +165,14 @@ TEST(WaterFill, PolygonSeedsAndBounds) {
 TEST(WaterFill, PolygonThatCutsTheLakeIsToldAbout) {
   const Folder folder;
   Scene s = bowls(folder, 2.0);
-  s.fluid.fill[0].polygon = {{-10, -10}, {50, -10}, {50, 110}, {-10, 110}};   // half the bowl, no wall at x = 50
+  s.fluid.fill[0].polygon = {{-10, -10}, {50, -10}, {50, 110}, {-10, 110}};  // half the bowl, no wall at x = 50
   s.fluid.fill[0].seed = Point2{45, 50};
   BuildReport report;
   build_case(s, report);
   EXPECT_NEAR(report.fills[0].exact_volume, 0.5 * bowl_volume(10.0), 0.02 * bowl_volume(10.0));
   ASSERT_EQ(report.notes.warnings.size(), 1u);
   EXPECT_MENTIONS(report.notes.warnings[0], "no wall holds the water");
-  EXPECT_NEAR(report.fills[0].open_edge, 70.7, 8.0);   // the chord: 2 sqrt(1250) m
+  EXPECT_NEAR(report.fills[0].open_edge, 70.7, 8.0);  // the chord: 2 sqrt(1250) m
 }
 
 TEST(WaterFill, ErrorsNameTheKeyAndTheGround) {
@@ -180,7 +184,7 @@ TEST(WaterFill, ErrorsNameTheKeyAndTheGround) {
   std::string text = input_error([&] { build_case(s, report); });
   EXPECT_MENTIONS(text, "fluid.fill.0.level = -5 m is below the bed");
   s.fluid.fill[0].level = 10.0;
-  s.fluid.fill[0].seed = Point2{101.0, 51.0};   // on the ridge
+  s.fluid.fill[0].seed = Point2{101.0, 51.0};  // on the ridge
   text = input_error([&] { build_case(s, report); });
   EXPECT_MENTIONS(text, "fluid.fill.0.seed");
   EXPECT_MENTIONS(text, "stands on ground at 15 m");
@@ -206,8 +210,10 @@ TEST(WaterFill, ClosedMeshInsideATank) {
   std::ofstream(folder.file("drop.off")) << [] {
     const TriangleMesh m = testing::sphere({0.5, 0.5, 0.5}, 0.3, 24);
     std::string t = "OFF\n" + std::to_string(m.vertex.size()) + " " + std::to_string(m.triangle.size()) + " 0\n";
-    for (const auto& v : m.vertex) t += std::to_string(v.x) + " " + std::to_string(v.y) + " " + std::to_string(v.z) + "\n";
-    for (const auto& f : m.triangle) t += "3 " + std::to_string(f.x) + " " + std::to_string(f.y) + " " + std::to_string(f.z) + "\n";
+    for (const auto& v : m.vertex)
+      t += std::to_string(v.x) + " " + std::to_string(v.y) + " " + std::to_string(v.z) + "\n";
+    for (const auto& f : m.triangle)
+      t += "3 " + std::to_string(f.x) + " " + std::to_string(f.y) + " " + std::to_string(f.z) + "\n";
     return t;
   }();
   Scene s;

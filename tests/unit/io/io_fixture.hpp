@@ -114,9 +114,7 @@ inline void expect_changed_bytes_do_no_harm(const TempFolder& folder, const std:
     for (int k = 0; k <= i % 4; ++k) changed[engine() % changed.size()] = char(engine());
     try {
       read_fluid_frame(folder.write("changed" + ending, changed), {}, nullptr);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::input) << error.what();
-    }
+    } catch (const Error& error) { EXPECT_EQ(error.kind(), ErrorKind::input) << error.what(); }
   }
 }
 

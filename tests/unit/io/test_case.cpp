@@ -27,7 +27,8 @@ box = {lower = [2, 0, 0], upper = [3, 1, 1]}
 diameter = 0.1
 [[gauge]]
 at = [1, 2]
-)"), {});
+)"),
+                         {});
     c.offset = {5e6, 1e5, 1953.25};
     c.domain = {{-1, -1, -1}, {1e7, 1e7, 1e3}};
     c.still_water_level = 0.1 + 0.2;
@@ -208,13 +209,17 @@ TEST_F(CaseTest, what_is_no_case_is_not_replaced_even_by_force) {
 
 TEST_F(CaseTest, folder_that_cannot_be_made) {
   folder.write("file", "x");
-  expect_error(ErrorKind::resource, {"file/lake.case"}, [&] { write_case(folder / "file/lake.case", some_case(), false); });
+  expect_error(ErrorKind::resource, {"file/lake.case"},
+               [&] { write_case(folder / "file/lake.case", some_case(), false); });
 }
 
 TEST_F(CaseTest, free_overrides_change_the_scene) {
   write_case(path, some_case(), false);
-  const Case c = read_case(path, {{"time.end", "7"}, {"numerics.cfl", "0.1"}, {"contact.friction", "0.3"},
-                                  {"coupling.enabled", "false"}, {"fluid.kinematic_viscosity", "1e-3"}});
+  const Case c = read_case(path, {{"time.end", "7"},
+                                  {"numerics.cfl", "0.1"},
+                                  {"contact.friction", "0.3"},
+                                  {"coupling.enabled", "false"},
+                                  {"fluid.kinematic_viscosity", "1e-3"}});
   EXPECT_EQ(c.scene.time.end, 7.0);
   EXPECT_EQ(c.scene.numerics.cfl, 0.1);
   EXPECT_EQ(c.scene.contact.friction, 0.3);
@@ -279,7 +284,8 @@ TEST_F(CaseTest, missing_or_exchanged_part_is_refused) {
   refused({"fluid.vtp", "holds 99 particles", "case.toml says 100"});
   std::filesystem::rename(path + "/moved.vtp", path + "/fluid.vtp");
   EXPECT_NO_THROW(read_case(path));
-  std::filesystem::copy_file(path + "/fluid.vtp", path + "/grains.vtp", std::filesystem::copy_options::overwrite_existing);
+  std::filesystem::copy_file(path + "/fluid.vtp", path + "/grains.vtp",
+                             std::filesystem::copy_options::overwrite_existing);
   refused({"grains.vtp", "diameter"});
 }
 

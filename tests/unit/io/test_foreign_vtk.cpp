@@ -55,8 +55,10 @@ vtkSmartPointer<Data> some_data() {
   fill(data);
   const vtkNew<vtkCellArray> cells;
   for (vtkIdType i = 0; i < count; ++i) cells->InsertNextCell(1, &i);
-  if constexpr (std::is_same_v<Data, vtkPolyData>) data->SetVerts(cells);
-  else data->SetCells(VTK_VERTEX, cells);
+  if constexpr (std::is_same_v<Data, vtkPolyData>)
+    data->SetVerts(cells);
+  else
+    data->SetCells(VTK_VERTEX, cells);
   return data;
 }
 
@@ -166,22 +168,25 @@ TEST(ForeignVtk, torn_legacy) {
 /// Changes of this kind bring VTK 9.1 down; here they end in an error.
 TEST(ForeignVtk, changed_bytes_do_no_harm) {
   const TempFolder folder;
-  expect_changed_bytes_do_no_harm(folder,
-                                  write_xml<vtkXMLUnstructuredGridWriter>(folder, "u.vtu", some_data<vtkUnstructuredGrid>().Get(),
-                                                                          vtkXMLWriter::Binary, vtkXMLWriter::LZ4),
-                                  40);
+  expect_changed_bytes_do_no_harm(
+      folder,
+      write_xml<vtkXMLUnstructuredGridWriter>(folder, "u.vtu", some_data<vtkUnstructuredGrid>().Get(),
+                                              vtkXMLWriter::Binary, vtkXMLWriter::LZ4),
+      40);
   check_legacy<vtkPolyDataWriter>(folder, some_data<vtkPolyData>().Get(), true);
   expect_changed_bytes_do_no_harm(folder, folder / "l.vtk", 40);
 }
 
 TEST(ForeignVtk, sizes_that_lie_take_no_memory) {
   const TempFolder folder;
-  const std::string legacy = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 99999999999 float\n0 0 0\n";
+  const std::string legacy =
+      "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 99999999999 float\n0 0 0\n";
   expect_error(ErrorKind::input, {"POINTS", "99999999999"},
                [&] { read_fluid_frame(folder.write("a.vtk", legacy), {}, nullptr); });
   const std::string xml =
       "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\"><UnstructuredGrid>"
-      "<Piece NumberOfPoints=\"99999999999\" NumberOfCells=\"0\"><Points></Points></Piece></UnstructuredGrid></VTKFile>";
+      "<Piece NumberOfPoints=\"99999999999\" "
+      "NumberOfCells=\"0\"><Points></Points></Piece></UnstructuredGrid></VTKFile>";
   expect_error(ErrorKind::input, {"NumberOfPoints", "99999999999"},
                [&] { read_fluid_frame(folder.write("a.vtu", xml), {}, nullptr); });
 }
@@ -195,7 +200,8 @@ TEST(ForeignVtk, what_is_no_vtk_file) {
     std::filesystem::remove(folder / name);
   }
   const std::string image =
-      "# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 2 2 1\nORIGIN 0 0 0\nSPACING 1 1 1\n";
+      "# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 2 2 1\nORIGIN 0 0 0\nSPACING 1 1 "
+      "1\n";
   expect_error(ErrorKind::input, {"image.vtk", "no point set"},
                [&] { read_fluid_frame(folder.write("image.vtk", image), {}, nullptr); });
 }

@@ -18,7 +18,8 @@ class FramesTest : public ::testing::Test {
     f.fluid = some_fluid(20);
     f.grains = some_grains(10);
     f.bodies = some_triangles();
-    f.body_states = {{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {0.5, 0.5, -0.5, 0.5}, {}, {}}, {{-1, 0, 1e6}, {}, {}, {1, 0, 0, 0}, {}, {}}};
+    f.body_states = {{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {0.5, 0.5, -0.5, 0.5}, {}, {}},
+                     {{-1, 0, 1e6}, {}, {}, {1, 0, 0, 0}, {}, {}}};
     return f;
   }
   FrameWriter writer(bool force = false, bool resume = false) { return {run, {5e5, 5e6, 1}, 0.25, force, resume}; }
@@ -106,7 +107,8 @@ TEST_F(FramesTest, series_is_what_paraview_expects) {
   out.write(some_frame(0.25, 3));
   const std::string pvd = text_of_file(run + "/fluid.pvd");
   EXPECT_NE(pvd.find("<VTKFile type=\"Collection\" version=\"0.1\">"), std::string::npos);
-  EXPECT_NE(pvd.find("<DataSet timestep=\"0.25\" part=\"0\" file=\"frames/fluid_00000.vtp\"/>"), std::string::npos) << pvd;
+  EXPECT_NE(pvd.find("<DataSet timestep=\"0.25\" part=\"0\" file=\"frames/fluid_00000.vtp\"/>"), std::string::npos)
+      << pvd;
 }
 
 TEST_F(FramesTest, existing_run_stays_unless_forced_or_resumed) {
@@ -188,10 +190,12 @@ TEST_F(FramesTest, fields_can_be_mapped) {
   const FramePaths paths = out.write(some_frame(0.0, 0));
   const FluidTable f = read_fluid_frame(paths.fluid, {{"density", "pressure"}}, nullptr);
   EXPECT_TRUE(f.density == some_fluid(20).pressure);
-  expect_error(ErrorKind::input, {"no field \"Vel\"", "velocity, density"},
-               [&] { read_fluid_frame(paths.fluid, {{"velocity", "Vel"}}, nullptr); });
-  expect_error(ErrorKind::input, {"field density has 1 components, expected 3"},
-               [&] { read_fluid_frame(paths.fluid, {{"velocity", "density"}}, nullptr); });
+  expect_error(ErrorKind::input, {"no field \"Vel\"", "velocity, density"}, [&] {
+    read_fluid_frame(paths.fluid, {{"velocity", "Vel"}}, nullptr);
+  });
+  expect_error(ErrorKind::input, {"field density has 1 components, expected 3"}, [&] {
+    read_fluid_frame(paths.fluid, {{"velocity", "density"}}, nullptr);
+  });
   const GrainTable g = read_grain_frame(paths.fluid, {{"radius", "density"}}, nullptr);
   EXPECT_EQ(g.diameter.at(3), 2.0f * some_fluid(20).density.at(3));
 }

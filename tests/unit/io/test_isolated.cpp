@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reading in a child process: what arrives, and what becomes of a reader that fails in any way.
-#include "io/isolated.hpp"
-
 #include <csignal>
 #include <thread>
 
+#include "io/isolated.hpp"
 #include "io_fixture.hpp"
 
 namespace gdesp::test {
@@ -18,7 +17,8 @@ class Isolated : public ::testing::Test {
   std::unique_ptr<MemoryPoints> read(const std::function<void(const std::string&, MemoryPoints&)>& reader) {
     return read_isolated(path, "The library", reader);
   }
-  void refused(const std::vector<std::string>& parts, const std::function<void(const std::string&, MemoryPoints&)>& reader,
+  void refused(const std::vector<std::string>& parts,
+               const std::function<void(const std::string&, MemoryPoints&)>& reader,
                ErrorKind kind = ErrorKind::input) {
     expect_error(kind, parts, [&] { read(reader); });
   }
@@ -52,15 +52,17 @@ TEST_F(Isolated, points_arrive_whole) {
 
 TEST_F(Isolated, errors_of_the_reader_arrive_as_they_are) {
   refused({"of its own"}, [](const std::string&, MemoryPoints&) { throw Error(ErrorKind::input, "of its own"); });
-  refused({"no room"}, [](const std::string&, MemoryPoints&) { throw Error(ErrorKind::resource, "no room"); },
-          ErrorKind::resource);
+  refused(
+      {"no room"}, [](const std::string&, MemoryPoints&) { throw Error(ErrorKind::resource, "no room"); },
+      ErrorKind::resource);
   refused({"points.xyz", "The library", "odd"},
           [](const std::string&, MemoryPoints&) { throw std::runtime_error("odd"); });
   refused({"points.xyz"}, [](const std::string&, MemoryPoints&) { throw 3; });
 }
 
 TEST_F(Isolated, crash_is_an_error) {
-  refused({"points.xyz", "The library", "crashed (signal 11)"}, [](const std::string&, MemoryPoints&) { ::raise(SIGSEGV); });
+  refused({"points.xyz", "The library", "crashed (signal 11)"},
+          [](const std::string&, MemoryPoints&) { ::raise(SIGSEGV); });
   refused({"crashed (signal 6)"}, [](const std::string&, MemoryPoints&) { std::abort(); });
   refused({"stopped"}, [](const std::string&, MemoryPoints&) { ::_exit(3); });
 }
@@ -70,7 +72,8 @@ TEST_F(Isolated, memory_without_end_is_an_error) {
 }
 
 TEST_F(Isolated, points_that_do_not_fit_together_are_refused) {
-  refused({"damaged"}, [](const std::string& f, MemoryPoints& p) { some_points(f, p), p.columns[0].numbers.pop_back(); });
+  refused({"damaged"},
+          [](const std::string& f, MemoryPoints& p) { some_points(f, p), p.columns[0].numbers.pop_back(); });
   refused({"damaged"}, [](const std::string& f, MemoryPoints& p) { some_points(f, p), p.surface.triangle[0].y = 3; });
   refused({"damaged"}, [](const std::string& f, MemoryPoints& p) { some_points(f, p), p.surface.body.clear(); });
 }

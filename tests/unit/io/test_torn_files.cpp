@@ -39,7 +39,8 @@ class TornFiles : public ::testing::Test {
 TEST_F(TornFiles, cut_anywhere) {
   const std::string text = fluid_text();
   ASSERT_TRUE(reads(text));
-  for (std::size_t length = 0; length < text.size() - 12; length += 23) EXPECT_FALSE(reads(text.substr(0, length))) << length;
+  for (std::size_t length = 0; length < text.size() - 12; length += 23)
+    EXPECT_FALSE(reads(text.substr(0, length))) << length;
 }
 
 TEST_F(TornFiles, own_files_never_reach_vtk_for_being_torn) {
@@ -84,9 +85,7 @@ TEST_F(TornFiles, changed_bytes_do_no_harm) {
     try {
       const std::unique_ptr<PointSource> source = open_plain_vtp(folder.write("t.vtp", changed));
       if (source) fluid_of(*source, "t.vtp", {});
-    } catch (const Error&) {
-      ++refused;
-    }
+    } catch (const Error&) { ++refused; }
   }
   EXPECT_GT(refused, 25);
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Lists against a brute-force search over all pairs.
+#include "neighbors/cluster_list.hpp"
+
 #include <gtest/gtest.h>
 
 #include <random>
 #include <set>
-
-#include "neighbors/cluster_list.hpp"
 
 namespace gdesp {
 namespace {

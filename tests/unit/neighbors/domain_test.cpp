@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <gtest/gtest.h>
-
 #include "neighbors/domain.hpp"
+
+#include <gtest/gtest.h>
 
 namespace gdesp {
 namespace {

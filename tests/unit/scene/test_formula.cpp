@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "scene/formula.hpp"
-
 #include <cmath>
 
 #include "core/error.hpp"
+#include "scene/formula.hpp"
 #include "scene_fixture.hpp"
 
 namespace gdesp::test {
@@ -43,7 +42,9 @@ TEST(Formula, says_where_it_cannot_be_read) {
 
 TEST(Formula, is_checked_with_the_scene) {
   const TempFolder folder;
-  const std::string scene = "[resolution]\ndp = 0.1\n[fluid]\nvelocity_x = \"2*u\"\n[[fluid.fill]]\nbox = {lower = [0,0,0], upper = [1,1,1]}\n";
+  const std::string scene =
+      "[resolution]\ndp = 0.1\n[fluid]\nvelocity_x = \"2*u\"\n[[fluid.fill]]\nbox = {lower = [0,0,0], upper = "
+      "[1,1,1]}\n";
   try {
     read_scene(folder.write("s.toml", scene), {});
     ADD_FAILURE() << "accepted";

@@ -44,7 +44,8 @@ TEST(SceneKeys, page_lists_exactly_the_keys) {
   ASSERT_FALSE(page.empty()) << "docs/formats/scene.md is missing";
   std::vector<std::string> documented, expected;
   std::istringstream lines(page);
-  for (std::string line; std::getline(lines, line);) if (line.starts_with("| `")) documented.push_back(line);
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with("| `")) documented.push_back(line);
   for (const SceneKey& key : scene_keys()) expected.push_back(row_of(key));
   const std::set<std::string> there(documented.begin(), documented.end()), due(expected.begin(), expected.end());
   for (const std::string& row : expected) EXPECT_TRUE(there.count(row)) << "the page lacks:\n" << row;

@@ -49,7 +49,8 @@ TEST_F(SceneMistakes, unknown_key_with_suggestion) {
 TEST_F(SceneMistakes, planes_of_symmetry) {
   const std::string tank = dp + "[[wall]]\ntank = {lower = [0,0,0], upper = [1,1,1]}\n";
   folder.write("a.stl", "solid");
-  EXPECT_TRUE(mentions(refusal(dp + "[[wall]]\nmesh = \"a.stl\"\nsymmetry = [\"y+\"]\n"), {"lake.toml:5", "wall.0.symmetry", "only with tank"}));
+  EXPECT_TRUE(mentions(refusal(dp + "[[wall]]\nmesh = \"a.stl\"\nsymmetry = [\"y+\"]\n"),
+                       {"lake.toml:5", "wall.0.symmetry", "only with tank"}));
   EXPECT_TRUE(mentions(refusal(tank + "open = [\"y+\"]\nsymmetry = [\"y+\"]\n"), {"wall.0.symmetry", "left out"}));
   EXPECT_TRUE(mentions(refusal(tank + "symmetry = [\"left\"]\n"), {"wall.0.symmetry", "x-"}));
 }
@@ -121,35 +122,45 @@ TEST_F(SceneMistakes, keys_that_do_not_go_together) {
   EXPECT_TRUE(mentions(refusal(dp + "[[slide]]\n" + box), {"slide.0", "needs diameter"}));
   EXPECT_TRUE(mentions(refusal(dp + "[[slide]]\ndiameter = 1\ndiameter_deviation = 0.5\n" + box), {"a third"}));
   EXPECT_TRUE(mentions(refusal(dp + "[[slide]]\ndiameter = 1\ndiameter_half_width = 1\n" + box), {"below diameter"}));
-  EXPECT_TRUE(mentions(refusal(dp + "[[slide]]\ndiameter = 1\ndiameter_deviation = 0.1\ndiameter_half_width = 0.2\n" + box), {"give one of them"}));
-  EXPECT_TRUE(mentions(refusal(dp + "[[slide]]\ndiameter = 1\nrelaxation = \"gravty\"\n" + box), {"in-place, gravity"}));
+  EXPECT_TRUE(
+      mentions(refusal(dp + "[[slide]]\ndiameter = 1\ndiameter_deviation = 0.1\ndiameter_half_width = 0.2\n" + box),
+               {"give one of them"}));
+  EXPECT_TRUE(
+      mentions(refusal(dp + "[[slide]]\ndiameter = 1\nrelaxation = \"gravty\"\n" + box), {"in-place, gravity"}));
   EXPECT_TRUE(mentions(refusal(dp + "[[slide]]\ndiameter = 1\nporosity = 0.05\n" + box), {"0.2 to 0.95"}));
   EXPECT_TRUE(mentions(refusal(dp + "[[slide]]\nkind = \"prescribed\"\n" + box), {"needs motion_csv"}));
-  EXPECT_TRUE(mentions(refusal(dp + "[[slide]]\nkind = \"rigid\"\nmotion_csv = \"m.csv\"\n" + box), {"only with kind"}));
+  EXPECT_TRUE(
+      mentions(refusal(dp + "[[slide]]\nkind = \"rigid\"\nmotion_csv = \"m.csv\"\n" + box), {"only with kind"}));
   EXPECT_TRUE(mentions(refusal(dp + "[[gate]]\nvelocity = [0,0,1]\nmotion_csv = \"m.csv\"\n" + box), {"either"}));
   EXPECT_TRUE(mentions(refusal(dp + "[[gate]]\nstart = 2\nstop = 1\n" + box), {"gate.0.stop", "before start"}));
   EXPECT_TRUE(mentions(refusal(dp + "[[fluid.fill]]\n"), {"fluid.fill.0", "needs level"}));
   EXPECT_TRUE(mentions(refusal(dp + "[[fluid.fill]]\nkind = \"box\"\n"), {"needs box"}));
-  EXPECT_TRUE(mentions(refusal(dp + "[[fluid.fill]]\nkind = \"level\"\nlevel = 1\n" + box), {"only with kind \"box\""}));
+  EXPECT_TRUE(
+      mentions(refusal(dp + "[[fluid.fill]]\nkind = \"level\"\nlevel = 1\n" + box), {"only with kind \"box\""}));
   EXPECT_TRUE(mentions(refusal(dp + "[[fluid.fill]]\nseed = [0,0]\n" + box), {"only for kind \"level\""}));
   EXPECT_TRUE(mentions(refusal(dp + "[[wall]]\n"), {"wall.0", "exactly one of"}));
   EXPECT_TRUE(mentions(refusal(dp + "[domain]\nlower = [0,0,0]\n"), {"domain", "upper is missing"}));
 }
 
 TEST_F(SceneMistakes, far_lake) {
-  const std::string box = "box = {lower = [0,0,0], upper = [1,1,1]}\n", piston = dp + "[[piston]]\n", lake = "far_lake = {length = 80, depth = 1}\n";
+  const std::string box = "box = {lower = [0,0,0], upper = [1,1,1]}\n", piston = dp + "[[piston]]\n",
+                    lake = "far_lake = {length = 80, depth = 1}\n";
   const Scene scene = read(piston + box + "far_lake = {length = 80, depth = 1, columns = 50, side = \"x-\"}\n");
   EXPECT_EQ(scene.moving[0].far_lake.length, 80.0);
   EXPECT_EQ(scene.moving[0].far_lake.columns, 50u);
   EXPECT_EQ(scene.moving[0].far_lake.side, "x-");
   EXPECT_EQ(read(scene_to_toml(scene)).moving[0].far_lake.depth, 1.0);
   EXPECT_EQ(read(scene_to_toml(read(piston + box))).moving[0].far_lake.length, 0.0);
-  EXPECT_TRUE(mentions(refusal(piston + box + "far_lake = {length = 80}\n"), {"lake.toml:5", "piston.0.far_lake", "depth > 0"}));
-  EXPECT_TRUE(mentions(refusal(piston + box + "far_lake = {length = 80, depth = 1, columns = 1}\n"), {"piston.0.far_lake.columns", "at least 2"}));
-  EXPECT_TRUE(mentions(refusal(piston + box + "far_lake = {length = -80, depth = 1}\n"), {"piston.0.far_lake.length", "at least 0"}));
+  EXPECT_TRUE(mentions(refusal(piston + box + "far_lake = {length = 80}\n"),
+                       {"lake.toml:5", "piston.0.far_lake", "depth > 0"}));
+  EXPECT_TRUE(mentions(refusal(piston + box + "far_lake = {length = 80, depth = 1, columns = 1}\n"),
+                       {"piston.0.far_lake.columns", "at least 2"}));
+  EXPECT_TRUE(mentions(refusal(piston + box + "far_lake = {length = -80, depth = 1}\n"),
+                       {"piston.0.far_lake.length", "at least 0"}));
   EXPECT_TRUE(mentions(refusal(piston + box + "far_lake = {lenght = 80, depth = 1}\n"), {"did you mean", "length"}));
   EXPECT_TRUE(mentions(refusal(piston + box + lake + "velocity = [1,0,0]\n"), {"piston.0", "no wave, velocity"}));
-  EXPECT_TRUE(mentions(refusal(piston + box + lake + "wave = {kind = \"solitary\", height = 0.1, depth = 1}\n"), {"piston.0", "no wave, velocity"}));
+  EXPECT_TRUE(mentions(refusal(piston + box + lake + "wave = {kind = \"solitary\", height = 0.1, depth = 1}\n"),
+                       {"piston.0", "no wave, velocity"}));
   EXPECT_TRUE(mentions(refusal("gravity = [1, 0, -9.81]\n" + piston + box + lake), {"gravity along -z"}));
   EXPECT_TRUE(mentions(refusal(piston + box + lake + "[domain]\nperiodic = [\"x\"]\n"), {"periodic along x"}));
   folder.write("a.stl", "x");

@@ -52,7 +52,8 @@ TEST_F(SceneOverride, a_terrain_file_replaces_those_of_the_scene) {
 }
 
 TEST_F(SceneOverride, mistakes_name_the_option) {
-  EXPECT_TRUE(mentions(refusal(text, {{"title", "\xff\xfe"}}), {"--set title", "not a TOML value"})) << "bytes that are no UTF-8";
+  EXPECT_TRUE(mentions(refusal(text, {{"title", "\xff\xfe"}}), {"--set title", "not a TOML value"}))
+      << "bytes that are no UTF-8";
   EXPECT_TRUE(mentions(refusal(text, {{"resolution.dp", "-5"}}), {"--set resolution.dp=-5", "above 0.0"}));
   EXPECT_TRUE(mentions(refusal(text, {{"resolution.pd", "5"}}),
                        {"--set resolution.pd=5", "unknown key", "did you mean \"resolution.dp\"?"}));

@@ -2,8 +2,8 @@
 // What is written in a scene file arrives in the Scene, and a Scene written out reads back the same.
 #include <filesystem>
 
-#include "scene_fixture.hpp"
 #include "scene/scene_source.hpp"
+#include "scene_fixture.hpp"
 
 namespace gdesp::test {
 namespace {
@@ -313,7 +313,8 @@ TEST_F(SceneRead, paper_preset_sets_its_options_and_single_keys_win) {
 }
 
 TEST_F(SceneRead, one_terrain_file_and_one_plain_table_will_do) {
-  const Scene s = read("[resolution]\ndp = 5\n[terrain]\nfile = \"a.tif\"\n[slide]\nmesh = \"solid.stl\"\ndiameter = 1\n");
+  const Scene s =
+      read("[resolution]\ndp = 5\n[terrain]\nfile = \"a.tif\"\n[slide]\nmesh = \"solid.stl\"\ndiameter = 1\n");
   EXPECT_EQ(s.terrain.files, std::vector<std::string>{folder / "a.tif"});
   EXPECT_EQ(s.slides.size(), 1u);
 }

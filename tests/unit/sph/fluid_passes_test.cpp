@@ -23,8 +23,8 @@ SimulationInput jittered_drop(unsigned seed, bool walls) {
   std::uniform_real_distribution<double> u(-1.0, 1.0);
   for (auto& r : input.fluid.position) {
     r += Vec3d{0.2 * dp * u(random), 0.2 * dp * u(random), 0.2 * dp * u(random)};
-    input.fluid.velocity.push_back({static_cast<float>(u(random)), static_cast<float>(u(random)),
-                                    static_cast<float>(u(random))});
+    input.fluid.velocity.push_back(
+        {static_cast<float>(u(random)), static_cast<float>(u(random)), static_cast<float>(u(random))});
     input.fluid.density.push_back(static_cast<float>(1000.0 + 5.0 * u(random)));
   }
   return input;
@@ -36,7 +36,10 @@ FluidSystem<OpenMP> system_of(const SimulationInput& input) {
   return FluidSystem<OpenMP>({}, domain, input.fluid_parameters, input.fluid, input.boundary);
 }
 
-struct Reference { Vec3d acceleration; double dD; };
+struct Reference {
+  Vec3d acceleration;
+  double dD;
+};
 
 // `accurate` with artificial viscosity and diffusion, fluid pairs only.
 Reference brute_force(const SimulationInput& input, std::size_t i) {
@@ -68,7 +71,10 @@ TEST(FluidPasses, agree_with_sums_over_all_pairs) {
   fluid.combined_pass();
   const auto rates = test::rates_by_id(fluid);
   double scale = 0.0, scale_dD = 0.0;
-  for (const auto& r : rates) { scale = std::max(scale, norm(r.acceleration)); scale_dD = std::max(scale_dD, std::abs(r.dD)); }
+  for (const auto& r : rates) {
+    scale = std::max(scale, norm(r.acceleration));
+    scale_dD = std::max(scale_dD, std::abs(r.dD));
+  }
   for (std::size_t i = 0; i < rates.size(); i += 7) {
     const Reference expected = brute_force(input, i);
     EXPECT_LT(norm(rates[i].acceleration - expected.acceleration), 3e-6 * scale);
@@ -96,7 +102,10 @@ TEST(FluidPasses, conserve_linear_momentum) {
   fluid.momentum_pass();
   Vec3d sum;
   double total = 0.0;
-  for (const auto& r : test::rates_by_id(fluid)) { sum += r.acceleration; total += norm(r.acceleration); }
+  for (const auto& r : test::rates_by_id(fluid)) {
+    sum += r.acceleration;
+    total += norm(r.acceleration);
+  }
   EXPECT_LT(norm(sum), 1e-6 * total);
 }
 

@@ -19,13 +19,13 @@
 
 #include "exec/lanes.hpp"
 #include "particles/surface_rows.hpp"
+#include "sph/fluid_views.hpp"
+#include "sph/lattice_count.hpp"
 #include "sph/particle_shifting.hpp"
 #include "sph/pressure_and_viscosity.hpp"
 #include "sph/tait.hpp"
 #include "sph/wall_extrapolation.hpp"
-#include "sph/fluid_views.hpp"
 #include "sph/wall_guard.hpp"
-#include "sph/lattice_count.hpp"
 #include "sph/wendland_c2.hpp"
 
 namespace gdesp::sph {
@@ -75,7 +75,8 @@ TEST(LatticeCount, TellsTheShareOfThinnedLattices) {
   for (const int dimensions : {2, 3}) {
     const ShareOfCount share(1.5, dimensions);
     for (const double s : {0.25, 0.33, 0.4, 0.6, 0.85, 1.0}) {
-      EXPECT_NEAR(static_cast<double>(share(static_cast<float>(lattice_count(1.5, dimensions, s)))), s, 0.005 * s) << dimensions;
+      EXPECT_NEAR(static_cast<double>(share(static_cast<float>(lattice_count(1.5, dimensions, s)))), s, 0.005 * s)
+          << dimensions;
     }
     EXPECT_EQ(share(0.01f), 0.0f);
     EXPECT_NEAR(share(1.2f * static_cast<float>(lattice_count(1.5, dimensions, 1.0))), 1.2f, 1e-5f);
@@ -134,7 +135,7 @@ TEST(FluidPair, hand_values) {
   const float Pi = 0.3f * 0.6f / 1.01f;
   EXPECT_NEAR(rates.ax, 0.25f * (0.4f + Pi) * 0.6f, 1e-6);
   EXPECT_NEAR(rates.az, 0.25f * (0.4f + Pi) * 0.8f, 1e-6);
-  EXPECT_NEAR(rates.compression, 0.15f, 1e-6);                      // approaching: density grows
+  EXPECT_NEAR(rates.compression, 0.15f, 1e-6);  // approaching: density grows
   EXPECT_NEAR(rates.diffusion, 0.25f * (0.2f - 0.05f * 0.8f), 1e-6);
 }
 
@@ -201,7 +202,9 @@ TEST(WallGuard, stops_half_way_to_the_wall_and_leaves_the_rest_alone) {
 }
 
 TEST(WallGuard, pushes_out_what_lies_deeper_than_a_tenth_of_a_spacing) {
-  const auto behind = [](float s, float v) { return guarded_velocity({0.0f, 0.0f, v}, {1.0f, s, 0.0f, 0.0f, 1.0f, 0.0f}, 0.1f, 1000.0f, 1.0f).z; };
+  const auto behind = [](float s, float v) {
+    return guarded_velocity({0.0f, 0.0f, v}, {1.0f, s, 0.0f, 0.0f, 1.0f, 0.0f}, 0.1f, 1000.0f, 1.0f).z;
+  };
   EXPECT_EQ(behind(-0.05f, -2.0f), 0.0f) << "no further in, and not thrown";
   EXPECT_EQ(behind(-0.05f, 0.5f), 0.5f);
   EXPECT_NEAR(behind(-0.6f, -2.0f), 0.5f, 1e-6f) << "half a spacing too deep, out in ten steps";
@@ -235,7 +238,8 @@ TEST(Shifting, moves_back_towards_the_lattice_and_not_at_the_surface) {
   EXPECT_LT(surface.divergence, surface_divergence * 2.0f);
   EXPECT_GT(displaced.divergence, surface_divergence * 2.0f);
   EXPECT_GT(surface.z, 1.0f) << "without f they would be pushed out of the water";
-  EXPECT_EQ(norm(shift_of({surface.x, surface.y, surface.z}, 0.5f, 1.0f, 0.3f, 0.01f)), 0.0f) << "within h of the surface";
+  EXPECT_EQ(norm(shift_of({surface.x, surface.y, surface.z}, 0.5f, 1.0f, 0.3f, 0.01f)), 0.0f)
+      << "within h of the surface";
   EXPECT_EQ(norm(shift_of({1.0f, 0.0f, 0.0f}, 0.0f, 0.0f, 0.3f, 0.01f)), 0.0f) << "still water stays";
   EXPECT_NEAR(norm(shift_of({1e6f, 0.0f, 0.0f}, 0.0f, 1.0f, 0.3f, 0.01f)), 0.4f * 0.01f, 1e-6f) << "bounded";
 }
@@ -265,7 +269,10 @@ TEST(WallGuard, far_face_of_a_ridge_does_not_speak_for_water_on_this_side) {
   add_wall_guard(1.0f / 32.0f, ridge, away, 1.0f, v, sums);
   add_wall_guard(1.0f / 32.0f, dam, out, 4.0f, v, sums);
   EXPECT_NEAR(sums.distance / sums.weight, 28.0f, 1e-4f);
-  EXPECT_EQ(guarded_velocity({}, {sums.weight, sums.distance, sums.nx, sums.ny, sums.nz, sums.wall_speed}, 0.02f, 400.0f, 16.0f).y, 0.0f);
+  EXPECT_EQ(guarded_velocity({}, {sums.weight, sums.distance, sums.nx, sums.ny, sums.nz, sums.wall_speed}, 0.02f,
+                             400.0f, 16.0f)
+                .y,
+            0.0f);
   // Water that is inside is told so: 0.4 dp from the wall particle, 0.6 dp below the surface.
   WallGuardSums<float> within;
   const float close[3] = {0.0f, -6.4f, 0.0f};
@@ -282,14 +289,16 @@ TEST(WallGuard, water_that_touches_a_face_is_not_thrown_by_the_crest_above) {
     add_wall_guard(1.0f / 16.0f, crest, up, 7.44f, v, sums);
     if (beside_face) add_wall_guard(1.0f / 16.0f, face, out, 2.28f, v, sums);
     const Vec3f free{0.3f, -0.1f, 0.2f};
-    const Vec3f kept = guarded_velocity(free, {sums.weight, sums.distance, sums.nx, sums.ny, sums.nz, sums.wall_speed}, 0.0145f, 400.0f, 8.0f);
+    const Vec3f kept = guarded_velocity(free, {sums.weight, sums.distance, sums.nx, sums.ny, sums.nz, sums.wall_speed},
+                                        0.0145f, 400.0f, 8.0f);
     EXPECT_LT(norm(kept - free), 0.25f) << "the crest alone gave 20 m/s";
   }
 }
 
 TEST(WallPair, a_wall_above_still_water_neither_pushes_nor_pulls) {
   EXPECT_EQ(pressing_wall(-0.3f, 0.3f), -0.3f) << "the linear field of still water: the pair's sum is zero";
-  EXPECT_FLOAT_EQ(pressing_wall(-0.1f, 0.3f), -0.3f) << "the second row is not pushed off a wall that has air beside it";
+  EXPECT_FLOAT_EQ(pressing_wall(-0.1f, 0.3f), -0.3f)
+      << "the second row is not pushed off a wall that has air beside it";
   EXPECT_FLOAT_EQ(pressing_wall(-0.01f, 0.3f), -0.04f) << "and what changes sign does so without a jump";
   EXPECT_EQ(pressing_wall(-0.5f, 0.3f), -0.3f) << "never pulls";
   EXPECT_EQ(pressing_wall(0.2f, 0.3f), 0.2f);
@@ -302,7 +311,8 @@ TEST(WallExtrapolation, a_no_slip_wall_continues_the_profile) {
   const float share = no_slip_share(0.5f, 0.5f + 0.7f), slope = 3.0f;
   EXPECT_FLOAT_EQ(-share * slope * 0.7f, slope * -0.5f);
   EXPECT_EQ(no_slip_share(2.5f, 2.5f + 0.5f), 3.0f) << "deep layers are bounded";
-  EXPECT_EQ(no_slip_share(0.5f, 0.4f), 3.0f) << "beside an edge the mean of the water may lie below the surface's plane";
+  EXPECT_EQ(no_slip_share(0.5f, 0.4f), 3.0f)
+      << "beside an edge the mean of the water may lie below the surface's plane";
   EXPECT_EQ(no_slip_share(0.5f, 0.0f), 1.0f) << "no normal: mirrored";
 }
 

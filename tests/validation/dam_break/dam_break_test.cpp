@@ -14,7 +14,8 @@ constexpr double g = 9.81;
 // Leading edge on the floor: the furthest water within 1.5 dp of it.
 double front(const FluidTable& water, double dp) {
   double x = 0.0;
-  for (const Vec3d& r : water.position) if (r.z < 2.0 * dp) x = std::max(x, r.x + 0.5 * dp);
+  for (const Vec3d& r : water.position)
+    if (r.z < 2.0 * dp) x = std::max(x, r.x + 0.5 * dp);
   return x;
 }
 
@@ -58,8 +59,12 @@ TEST(DamBreak, front_follows_martin_and_moyce) {
   double best = 1e30, best_shift = 0.0;
   for (double shift = -0.3; shift <= 0.3; shift += 0.02) {
     double worst = 0.0;
-    for (std::size_t k = 0; k < std::size(T); ++k) worst = std::max(worst, std::abs(simulated(T[k] + shift) / Z[k] - 1.0));
-    if (worst < best) { best = worst; best_shift = shift; }
+    for (std::size_t k = 0; k < std::size(T); ++k)
+      worst = std::max(worst, std::abs(simulated(T[k] + shift) / Z[k] - 1.0));
+    if (worst < best) {
+      best = worst;
+      best_shift = shift;
+    }
   }
   EXPECT_LT(best, 0.05) << "at a shift of " << best_shift;
 }

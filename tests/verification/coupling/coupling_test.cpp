@@ -122,7 +122,7 @@ SimulationInput block_into_water(double shift = 0.0) {
 }
 
 struct Splash {
-  double energy_made, largest_speed;   // share of the kinetic energy at the start; m/s
+  double energy_made, largest_speed;  // share of the kinetic energy at the start; m/s
 };
 Splash splash(double length_over_h, double shift) {
   SimulationInput input = block_into_water(shift);
@@ -169,10 +169,12 @@ TEST(Coupling, pores_hold_the_water_that_grains_leave) {
       const double step = n * dp / across;
       for (int i = 0; i < across; ++i)
         for (int j = 0; j < (dimensions == 2 ? 1 : across); ++j)
-          for (int k = 0; k < across; ++k) places.push_back({(i + 0.5) * step, dimensions == 2 ? 0.0 : (j + 0.5) * step, (k + 0.5) * step});
+          for (int k = 0; k < across; ++k)
+            places.push_back({(i + 0.5) * step, dimensions == 2 ? 0.0 : (j + 0.5) * step, (k + 0.5) * step});
     };
     const int thin = dimensions == 2 ? 10 : 12;
-    const double eps = std::pow(static_cast<double>(thin) / n, dimensions), solid = (1.0 - eps) * std::pow(dp, dimensions);
+    const double eps = std::pow(static_cast<double>(thin) / n, dimensions),
+                 solid = (1.0 - eps) * std::pow(dp, dimensions);
     const double d = dimensions == 2 ? std::sqrt(4.0 * solid / 3.14159265) : std::cbrt(6.0 * solid / 3.14159265);
     for (const int across : {n, thin}) {
       SimulationInput input = periodic_box(dp, n);
@@ -189,7 +191,8 @@ TEST(Coupling, pores_hold_the_water_that_grains_leave) {
       input.grains.diameter.assign(input.grains.position.size(), static_cast<float>(d));
       input.grains.density.assign(input.grains.position.size(), 2650.0f);
       auto simulation = make_simulation(input, "cpu");
-      EXPECT_NEAR(simulation->diagnostics().fluid_mass / (1000.0 * eps * std::pow(n * dp, dimensions)), 1.0, 0.005) << dimensions << " " << across;
+      EXPECT_NEAR(simulation->diagnostics().fluid_mass / (1000.0 * eps * std::pow(n * dp, dimensions)), 1.0, 0.005)
+          << dimensions << " " << across;
     }
   }
 }

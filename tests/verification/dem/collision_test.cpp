@@ -14,11 +14,13 @@ namespace {
 
 constexpr double pi = 3.14159265358979324;
 
-struct Material { double modulus, poisson, density; };
+struct Material {
+  double modulus, poisson, density;
+};
 
 struct Outcome {
-  double largest_overlap = 0.0, contact_time = 0.0;   // m, s
-  Vec3d velocity, spin;                               // of grain 0 afterwards
+  double largest_overlap = 0.0, contact_time = 0.0;  // m, s
+  Vec3d velocity, spin;                              // of grain 0 afterwards
 };
 
 // Runs until the contact has ended; steps of `dt`.
@@ -65,8 +67,12 @@ double peak_force(const Material& m, double e_star_share, double radius, double 
 
 // Chung & Ooi test 1: force, overlap and time of two spheres of 10 mm at +-10 m/s.
 TEST(Collision, TwoSpheresMeetAsHertzSays) {
-  struct Row { Material m; double force, overlap, time; };
-  for (const Row& row : {Row{{48e9, 0.20, 2800}, 10697, 274.1e-6, 40.34e-6}, Row{{20e9, 0.25, 2500}, 7108, 368.3e-6, 54.20e-6}}) {
+  struct Row {
+    Material m;
+    double force, overlap, time;
+  };
+  for (const Row& row :
+       {Row{{48e9, 0.20, 2800}, 10697, 274.1e-6, 40.34e-6}, Row{{20e9, 0.25, 2500}, 7108, 368.3e-6, 54.20e-6}}) {
     const Outcome o = head_on(row.m, 0.01, 10.0, 1.0, 2000, row.time);
     EXPECT_NEAR(o.largest_overlap / row.overlap, 1.0, 1e-3);
     EXPECT_NEAR(peak_force(row.m, 2.0, 0.005, o.largest_overlap) / row.force, 1.0, 1e-3);
@@ -77,7 +83,11 @@ TEST(Collision, TwoSpheresMeetAsHertzSays) {
 
 // Exact Hertz theory: delta = (15 m* v^2/(16 E* sqrt R*))^(2/5), t = 2.9432 delta / v.
 TEST(Collision, SoftSpheresFollowTheory) {
-  struct Row { double radius; Material m; double speed, overlap, time; };
+  struct Row {
+    double radius;
+    Material m;
+    double speed, overlap, time;
+  };
   for (const Row& row : {Row{0.01, {7e10, 0.25, 2500}, 0.1, 3.21925e-06, 9.47523e-05},
                          Row{0.005, {1e8, 0.25, 2500}, 0.5, 8.01568e-05, 0.000471851},
                          Row{0.005, {1e7, 0.3, 2500}, 1.0, 0.000346412, 0.00101959}}) {
@@ -91,8 +101,12 @@ TEST(Collision, SoftSpheresFollowTheory) {
 // give 8613 N instead of 11365 N.
 TEST(Collision, SphereMeetsARigidWall) {
   exec::set_threads(1);
-  struct Row { Material m; double force, overlap, time; };
-  for (const Row& row : {Row{{70e9, 0.30, 2699}, 11365, 49.74e-6, 732e-6}, Row{{40e9, 0.35, 1800}, 7230, 52.14e-6, 767e-6}}) {
+  struct Row {
+    Material m;
+    double force, overlap, time;
+  };
+  for (const Row& row :
+       {Row{{70e9, 0.30, 2699}, 11365, 49.74e-6, 732e-6}, Row{{40e9, 0.35, 1800}, 7230, 52.14e-6, 767e-6}}) {
     GrainTable table;
     add_grain(table, {0.5, 0.5, 0.1 + 1e-9}, 0.2, row.m.density, {0, 0, -0.2});
     ContactParameters p = parameters(row.m, 1.0, 0.0);
@@ -162,7 +176,9 @@ TEST(Collision, ErrorFallsWithTheStep) {
   EXPECT_GT(std::log2(damped / half), 0.8);
 }
 
-struct Rebound { double tangential_restitution, spin, angle; };
+struct Rebound {
+  double tangential_restitution, spin, angle;
+};
 
 // A sphere of 2.5 mm meets a wall at 3.9 m/s, `degrees` from the normal.
 Rebound oblique(double degrees) {
@@ -170,8 +186,8 @@ Rebound oblique(double degrees) {
   const double angle = degrees * pi / 180.0, speed = 3.9;
   GrainTable table;
   add_grain(table, {0.5, 0.5, 0.0025 + 1e-9}, 0.005, 4000, {speed * std::sin(angle), 0, -speed * std::cos(angle)});
-  Grains grains({}, space({0.3, 0.3, -0.2}, {0.8, 0.8, 0.3}, 0.005), table, parameters({380e9, 0.23, 4000}, 0.98, 0.092),
-                floor_mesh(0.4, 0.6, 0.4, 0.6, 0, 0.02), {});
+  Grains grains({}, space({0.3, 0.3, -0.2}, {0.8, 0.8, 0.3}, 0.005), table,
+                parameters({380e9, 0.23, 4000}, 0.98, 0.092), floor_mesh(0.4, 0.6, 0.4, 0.6, 0, 0.02), {});
   const Outcome o = collide(grains, 6.0e-6 / 1000, 0.005);
   const double contact_x = o.velocity.x - 0.0025 * o.spin.y;
   return {o.velocity.x / (speed * std::sin(angle)), o.spin.y, std::atan2(contact_x, o.velocity.z) * 180.0 / pi};
@@ -191,8 +207,11 @@ TEST(Collision, SlidingImpactIsExact) {
 
 // Chung & Ooi test 4 where the contact sticks (their figures, digitised: +-0.01 in e_t, +-15 rad/s, +-1 degree).
 TEST(Collision, StickingImpactFollowsChungAndOoi) {
-  struct Row { double degrees, e_t, spin; };
-  for (const Row& row : {Row{10, 0.687, 213}, Row{15, 0.624, 378}, Row{20, 0.616, 511}, Row{25, 0.634, 599}, Row{30, 0.684, 617}}) {
+  struct Row {
+    double degrees, e_t, spin;
+  };
+  for (const Row& row :
+       {Row{10, 0.687, 213}, Row{15, 0.624, 378}, Row{20, 0.616, 511}, Row{25, 0.634, 599}, Row{30, 0.684, 617}}) {
     const Rebound r = oblique(row.degrees);
     EXPECT_NEAR(r.tangential_restitution, row.e_t, 0.03) << row.degrees;
     EXPECT_NEAR(r.spin, row.spin, 20.0) << row.degrees;
@@ -201,8 +220,11 @@ TEST(Collision, StickingImpactFollowsChungAndOoi) {
 
 // Measured by Kharaz, Gorham, Salman (2001) on the same spheres; the resisted micro-slip of real contacts lies between.
 TEST(Collision, ObliqueImpactLiesNearTheExperiment) {
-  struct Row { double degrees, e_t; };
-  for (const Row& row : {Row{9.8, 0.675}, Row{20.2, 0.599}, Row{30.4, 0.690}, Row{39.5, 0.774}, Row{49.6, 0.848}, Row{71, 0.937}}) {
+  struct Row {
+    double degrees, e_t;
+  };
+  for (const Row& row :
+       {Row{9.8, 0.675}, Row{20.2, 0.599}, Row{30.4, 0.690}, Row{39.5, 0.774}, Row{49.6, 0.848}, Row{71, 0.937}}) {
     EXPECT_NEAR(oblique(row.degrees).tangential_restitution, row.e_t, 0.05) << row.degrees;
   }
 }

@@ -44,7 +44,9 @@ void run(Grains& grains, double time) {
 
 // A block slides with a = g (sin - mu cos); a sphere with little friction does too, spinning up all the way.
 TEST(Incline, SlidesWithTheAccelerationOfABlock) {
-  struct Row { double degrees, friction, acceleration; };
+  struct Row {
+    double degrees, friction, acceleration;
+  };
   for (const Row& row : {Row{20, 0.0, 3.35522}, Row{30, 0.0, 4.905}, Row{45, 0.2, 5.54937}, Row{35, 0.15, 4.421365}}) {
     Grains grains = on_floor(contact(row.friction), row.degrees, {}, {});
     run(grains, 0.5);
@@ -55,7 +57,9 @@ TEST(Incline, SlidesWithTheAccelerationOfABlock) {
 
 // mu > 2/7 tan(slope): rolls without slip, a = 5/7 g sin(slope).
 TEST(Incline, RollsWithoutSlip) {
-  struct Row { double degrees, acceleration; };
+  struct Row {
+    double degrees, acceleration;
+  };
   for (const Row& row : {Row{20, 2.39658}, Row{30, 3.50357}, Row{45, 4.95480}}) {
     Grains grains = on_floor(contact(0.5), row.degrees, {}, {});
     run(grains, 0.5);

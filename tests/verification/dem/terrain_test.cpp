@@ -12,7 +12,7 @@
 namespace gdesp::dem::test {
 namespace {
 
-constexpr double diameter = 4.0;   // m
+constexpr double diameter = 4.0;  // m
 
 /// Heights at nodes, the first row in the south; the coordinates of the south-western node are 0.
 struct Valley {
@@ -45,7 +45,8 @@ struct Valley {
   TriangleTable mesh() const {
     TriangleTable t;
     for (int j = 0; j < ny; ++j) {
-      for (int i = 0; i < nx; ++i) t.vertex.push_back({i * spacing, j * spacing, std::isnan(z[index(i, j)]) ? 0.0 : z[index(i, j)]});
+      for (int i = 0; i < nx; ++i)
+        t.vertex.push_back({i * spacing, j * spacing, std::isnan(z[index(i, j)]) ? 0.0 : z[index(i, j)]});
     }
     const auto at = [&](int i, int j) { return static_cast<std::int32_t>(index(i, j)); };
     for (int j = 0; j + 1 < ny; ++j) {
@@ -98,11 +99,13 @@ TEST(Terrain, NoGrainGetsThrough) {
   p.youngs_modulus = 1.0e8;
   p.restitution = 0.5;
   p.friction = 0.3;
-  Grains grains({}, space({0, 0, valley.lowest - 300}, {valley.nx * valley.spacing, valley.ny * valley.spacing, valley.highest + 200}, diameter),
+  Grains grains({},
+                space({0, 0, valley.lowest - 300},
+                      {valley.nx * valley.spacing, valley.ny * valley.spacing, valley.highest + 200}, diameter),
                 dropped(valley), p, valley.mesh(), {0, 0, -9.81});
-  const double interval = 0.1;   // s: a grain that got through is far from the lower end of the domain at the next look
+  const double interval = 0.1;  // s: a grain that got through is far from the lower end of the domain at the next look
   const int substeps = static_cast<int>(std::ceil(interval / grains.stable_time_step(0.2)));
-  double deepest = -1e300;       // m, of a grain's lowest point below the ground under its centre
+  double deepest = -1e300;  // m, of a grain's lowest point below the ground under its centre
   std::size_t over = 0;
   for (int k = 0; k < 100; ++k) {
     grains.advance(interval, substeps);
@@ -110,7 +113,7 @@ TEST(Terrain, NoGrainGetsThrough) {
     over = 0;
     for (const auto& at : now.position) {
       const double ground = valley.ground(at.x, at.y);
-      if (std::isnan(ground)) continue;   // beside the terrain
+      if (std::isnan(ground)) continue;  // beside the terrain
       ++over;
       deepest = std::max(deepest, ground - at.z);
       ASSERT_GT(at.z, ground) << "at " << at.x << ", " << at.y << " after " << 0.1 * (k + 1) << " s";

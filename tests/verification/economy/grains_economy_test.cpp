@@ -34,7 +34,8 @@ SimulationInput plunge() {
   test::fill_block(input.fluid, {0, 0, 0}, {length, 0, depth}, dp, true);
   for (int i = 0; i < 10; ++i)
     for (int k = 0; k < 8; ++k) {
-      input.grains.position.push_back({(0.6 + 1.03 * i + 0.02 * (k % 3)) * d, 0.0, depth + 0.005 + (0.55 + 1.03 * k) * d});
+      input.grains.position.push_back(
+          {(0.6 + 1.03 * i + 0.02 * (k % 3)) * d, 0.0, depth + 0.005 + (0.55 + 1.03 * k) * d});
       input.grains.diameter.push_back(static_cast<float>(d));
       input.grains.density.push_back(2650.0f);
     }
@@ -44,7 +45,10 @@ SimulationInput plunge() {
   return input;
 }
 
-struct Climb { double highest = 0.0, overlap = 0.0; std::int64_t substeps = 0, steps = 0; };
+struct Climb {
+  double highest = 0.0, overlap = 0.0;
+  std::int64_t substeps = 0, steps = 0;
+};
 
 /// m: the highest rise of the mean level over the last 0.15 m before the far wall, until `end`.
 Climb climb(const SimulationInput& input, double end) {
@@ -67,7 +71,9 @@ Climb climb(const SimulationInput& input, double end) {
 
 /// Splashing grains are chaotic: a start moved by a few thousandths of a diameter changes the climb by about 0.7 %. So means over starts
 /// are compared, and their standard error is allowed for.
-struct Climbs { double mean = 0.0, error_squared = 0.0, overlap = 0.0, substeps = 0.0, steps = 0.0; };
+struct Climbs {
+  double mean = 0.0, error_squared = 0.0, overlap = 0.0, substeps = 0.0, steps = 0.0;
+};
 
 Climbs climbs(const SimulationInput& input, int starts) {
   Climbs sum;
@@ -90,8 +96,8 @@ void expect_within_a_percent(const Climbs& economical, const Climbs& full) {
   const double spread = 2.0 * std::sqrt(economical.error_squared + full.error_squared);
   EXPECT_LT(spread, 0.02 * full.mean) << "else nothing is shown";
   EXPECT_NEAR(economical.mean, full.mean, 0.01 * full.mean + spread);
-  std::printf("economical: %.5f m, full: %.5f m, twice the standard error %.5f m; overlaps %.3f and %.3f\n", economical.mean, full.mean, spread,
-              economical.overlap, full.overlap);
+  std::printf("economical: %.5f m, full: %.5f m, twice the standard error %.5f m; overlaps %.3f and %.3f\n",
+              economical.mean, full.mean, spread, economical.overlap, full.overlap);
 }
 
 TEST(OwnStepOfGrains, leaves_the_climb_at_the_far_wall_within_a_percent) {

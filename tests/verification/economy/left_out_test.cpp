@@ -70,7 +70,8 @@ TEST(LeftOut, viscosity_with_an_unresolved_layer_moves_the_front_by_less_than_a_
   SimulationInput input = collapse();
   input.fluid_parameters.viscosity = sph::Viscosity::morris;
   const double end = 0.4;
-  input.fluid_parameters.kinematic_viscosity = std::pow(0.2 * dp, 2.0) / end;  // the largest that counts as without effect
+  input.fluid_parameters.kinematic_viscosity =
+      std::pow(0.2 * dp, 2.0) / end;  // the largest that counts as without effect
   for (std::size_t i = 0; i < input.boundary.position.size(); ++i) input.boundary.friction.push_back(1.0f);
   const double with = front(water_after(input, end));
   input.fluid_parameters.viscosity = sph::Viscosity::none;

@@ -31,7 +31,8 @@ SimulationInput with_solitary_wave(SimulationInput input) {
     r.z *= 1.0 + eta / depth;
     const double u = c * eta / (depth + eta);
     input.fluid.mass_share.push_back(static_cast<float>(1.0 + eta / depth));
-    input.fluid.velocity.push_back({static_cast<float>(u), 0.0f, static_cast<float>(r.z * u * 2.0 * k * std::tanh(k * (r.x - 2.0)))});
+    input.fluid.velocity.push_back(
+        {static_cast<float>(u), 0.0f, static_cast<float>(r.z * u * 2.0 * k * std::tanh(k * (r.x - 2.0)))});
   }
   return input;
 }
@@ -45,13 +46,16 @@ TEST(SleepingWater, stays_as_it_is_to_the_last_bit) {
     ASSERT_EQ(before.position[i], after.position[i]);
     ASSERT_EQ(after.velocity[i], Vec3f{});
     ASSERT_EQ(before.density[i], after.density[i]);
-    ASSERT_NEAR(static_cast<double>(after.pressure[i]), 1000.0 * g * (depth - after.position[i].z), 0.001 * 1000.0 * g * depth);
+    ASSERT_NEAR(static_cast<double>(after.pressure[i]), 1000.0 * g * (depth - after.position[i].z),
+                0.001 * 1000.0 * g * depth);
   }
   EXPECT_EQ(simulation->diagnostics().awake_share, 0.0);
 }
 
 /// m3/m of water that has passed x, and the time (s) at which half of it had: the wave's size and arrival.
-struct Passage { double volume = 0.0, arrival = 0.0, awake = 0.0; };
+struct Passage {
+  double volume = 0.0, arrival = 0.0, awake = 0.0;
+};
 Passage passage(const SimulationInput& input, double x, double end) {
   auto simulation = make_simulation(input, "cpu");
   std::vector<double> beyond;
@@ -62,14 +66,16 @@ Passage passage(const SimulationInput& input, double x, double end) {
     const FluidTable water = simulation->fluid();
     double volume = 0.0;
     for (std::size_t i = 0; i < water.position.size(); ++i)  // a particle counts by the part of it that has passed
-      volume += std::clamp((water.position[i].x - x) / dp + 0.5, 0.0, 1.0) * static_cast<double>(water.mass_share[i]) * dp * dp;
+      volume += std::clamp((water.position[i].x - x) / dp + 0.5, 0.0, 1.0) * static_cast<double>(water.mass_share[i]) *
+                dp * dp;
     beyond.push_back(volume);
     p.awake += simulation->diagnostics().awake_share / (frames + 1);
   }
   p.volume = beyond.back() - beyond.front();
   const double half = beyond.front() + 0.5 * p.volume;
   for (std::size_t k = 1; k < beyond.size() && p.arrival == 0.0; ++k)
-    if (beyond[k] >= half) p.arrival = end * (static_cast<double>(k) - (beyond[k] - half) / (beyond[k] - beyond[k - 1])) / frames;
+    if (beyond[k] >= half)
+      p.arrival = end * (static_cast<double>(k) - (beyond[k] - half) / (beyond[k] - beyond[k - 1])) / frames;
   return p;
 }
 

@@ -26,7 +26,9 @@ FarLake lake_of(double length, double spacing, double side = 1.0) {
   return FarLake(shape, density, g);
 }
 
-struct Crest { double place = 0.0, height = 0.0; };
+struct Crest {
+  double place = 0.0, height = 0.0;
+};
 
 /// Of the highest column, by the parabola through it and its neighbours.
 Crest crest_of(const FarLake& lake) {
@@ -65,7 +67,8 @@ TEST(FarLake, keeps_mass_and_momentum) {
     }
     double volume = 0.0;
     const FarLakeTable surface = lake.table();
-    for (std::size_t j = 0; j < surface.level.size(); ++j) volume += (surface.level[j] + depth) * (lake.nodes()[j + 1] - lake.nodes()[j]);
+    for (std::size_t j = 0; j < surface.level.size(); ++j)
+      volume += (surface.level[j] + depth) * (lake.nodes()[j + 1] - lake.nodes()[j]);
     EXPECT_NEAR(density * width * volume, mass, 1e-12 * mass);
     EXPECT_EQ(lake.sums().mass, mass);
     EXPECT_GT(std::abs(impulse), 1e-4 * given);
@@ -119,14 +122,19 @@ TEST(FarLake, carries_a_solitary_wave) {
 }
 
 /// Force over velocity at node 0 (kg/s): of the part of the velocity in phase with a force of small amplitude, and of the part behind it.
-struct Impedance { double in_phase, behind; };
+struct Impedance {
+  double in_phase, behind;
+};
 Impedance impedance_of(double omega) {
-  FarLake lake = lake_of(std::ceil(9.0 * 2.0 * std::numbers::pi * std::sqrt(g * depth) / omega / depth) * depth, 0.1 * depth);
+  FarLake lake =
+      lake_of(std::ceil(9.0 * 2.0 * std::numbers::pi * std::sqrt(g * depth) / omega / depth) * depth, 0.1 * depth);
   const double period = 2.0 * std::numbers::pi / omega, dt = period / 400.0, force = 1e-5 * rest_force;
   double in = 0.0, behind = 0.0;
-  constexpr int before = 4000, measured = 1600;  // periods of 400: ten to come to rest, four; nothing is back from the far wall then
+  constexpr int before = 4000,
+                measured = 1600;  // periods of 400: ten to come to rest, four; nothing is back from the far wall then
   for (int n = 0; n < before + measured; ++n) {
-    const double phase = omega * (n + 0.5) * dt, ramp = std::min(1.0, phase / (10.0 * std::numbers::pi)), old = lake.velocity();
+    const double phase = omega * (n + 0.5) * dt, ramp = std::min(1.0, phase / (10.0 * std::numbers::pi)),
+                 old = lake.velocity();
     lake.step(dt, rest_force + ramp * force * std::sin(phase));
     const double middle = 0.5 * (old + lake.velocity());
     if (n < before) continue;
@@ -151,7 +159,8 @@ double reflection(double k, double omega, const Impedance& z) {
     const double kn = 0.5 * (low + high), sn = std::sin(kn * depth) / kn;
     x += omega * sn * sn / ((0.5 * depth + std::sin(2.0 * kn * depth) / (4.0 * kn)) * kn);
   }
-  const std::complex<double> q = std::complex<double>(z.in_phase, -z.behind - density * width * x) * k * n0 / (density * width * omega * s0 * s0);
+  const std::complex<double> q =
+      std::complex<double>(z.in_phase, -z.behind - density * width * x) * k * n0 / (density * width * omega * s0 * s0);
   return std::abs((q - 1.0) / (q + 1.0));
 }
 
@@ -168,7 +177,11 @@ TEST(FarLake, hardly_reflects_waves_longer_than_4_5_depths) {
 
 TEST(FarLake, says_when_a_column_is_pressed_to_nothing) {
   FarLake lake = lake_of(20.0, 0.5);
-  EXPECT_THROW({ for (int n = 0; n < 1000; ++n) lake.step(0.5, 1e3 * rest_force); }, Error);
+  EXPECT_THROW(
+      {
+        for (int n = 0; n < 1000; ++n) lake.step(0.5, 1e3 * rest_force);
+      },
+      Error);
 }
 
 }  // namespace

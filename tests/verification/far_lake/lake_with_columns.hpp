@@ -12,10 +12,10 @@
 namespace gdesp::test {
 
 struct LakeScene {
-  double depth = 0.3, dp = 0.03;     ///< m
-  double particles = 4.0;            ///< m of particles' water
-  double columns = 0.0;              ///< m of columns behind it; 0: a wall
-  double spacing = 0.2;              ///< of columns, over the depth
+  double depth = 0.3, dp = 0.03;  ///< m
+  double particles = 4.0;         ///< m of particles' water
+  double columns = 0.0;           ///< m of columns behind it; 0: a wall
+  double spacing = 0.2;           ///< of columns, over the depth
 };
 
 /// A wall, `layers` thick, whose face is at x; `side` 1: it stands to the right of its face.
@@ -34,7 +34,10 @@ inline void add_far_lake(SimulationInput& input, const LakeScene& scene, double 
   Body body;
   body.name = "far";
   body.kind = BodyKind::far_lake;
-  body.far_lake = {scene.columns, scene.depth, 1.0, static_cast<int>(std::lround(scene.columns / (scene.spacing * scene.depth))), side, x, scene.depth};
+  body.far_lake = {scene.columns, scene.depth,
+                   1.0,           static_cast<int>(std::lround(scene.columns / (scene.spacing * scene.depth))),
+                   side,          x,
+                   scene.depth};
   input.bodies.push_back(body);
 }
 
@@ -62,7 +65,9 @@ inline void add_solitary_wave(SimulationInput& input, const SolitaryWave& wave, 
     r.z *= stretch;
     input.fluid.mass_share.push_back(static_cast<float>(stretch));
     const double slope = -2.0 * wave.k() * std::tanh(wave.k() * x) * wave.rise(x);
-    input.fluid.velocity.push_back({static_cast<float>(u), 0.0f, static_cast<float>(r.z * (wave.speed() - u) * -slope / (wave.depth + wave.rise(x)))});
+    input.fluid.velocity.push_back(
+        {static_cast<float>(u), 0.0f,
+         static_cast<float>(r.z * (wave.speed() - u) * -slope / (wave.depth + wave.rise(x)))});
   }
 }
 

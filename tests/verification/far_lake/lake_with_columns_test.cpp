@@ -83,7 +83,9 @@ TEST(FarLakeBehindParticles, takes_the_momentum_that_the_water_gives) {
 }
 
 /// Largest flux through x = 4 m to the right and later to the left, over the wave's speed (m), and when half of the wave had passed (s).
-struct Passage { double height = 0.0, height_back = 0.0, arrival = 0.0, arrival_back = 0.0, energy_rise = 0.0; };
+struct Passage {
+  double height = 0.0, height_back = 0.0, arrival = 0.0, arrival_back = 0.0, energy_rise = 0.0;
+};
 
 Passage passage(const LakeScene& scene, const SolitaryWave& wave) {
   constexpr double x = 4.0, interval = 0.04;
@@ -101,13 +103,18 @@ Passage passage(const LakeScene& scene, const SolitaryWave& wave) {
   Passage p;
   const double half = passed.front() + 0.5 * wave.volume();
   for (std::size_t k = half_window; k + half_window < passed.size(); ++k) {
-    const double flux = (passed[k + half_window] - passed[k - half_window]) / (2 * half_window * interval * wave.speed());
+    const double flux =
+        (passed[k + half_window] - passed[k - half_window]) / (2 * half_window * interval * wave.speed());
     p.height = std::max(p.height, flux);
     p.height_back = std::max(p.height_back, -flux);
-    const auto time = [&] { return interval * (static_cast<double>(k) - (passed[k] - half) / (passed[k] - passed[k - 1])); };
+    const auto time = [&] {
+      return interval * (static_cast<double>(k) - (passed[k] - half) / (passed[k] - passed[k - 1]));
+    };
     if (p.arrival == 0.0 && passed[k] >= half) p.arrival = time();
     if (p.arrival > 0.0 && p.arrival_back == 0.0 && passed[k] < half) p.arrival_back = time();
-    p.energy_rise = std::max(p.energy_rise, energy[k] - *std::min_element(energy.begin(), energy.begin() + static_cast<std::ptrdiff_t>(k) + 1));
+    p.energy_rise =
+        std::max(p.energy_rise,
+                 energy[k] - *std::min_element(energy.begin(), energy.begin() + static_cast<std::ptrdiff_t>(k) + 1));
   }
   return p;
 }
@@ -197,7 +204,8 @@ TEST(FarLakeBehindParticles, stays_at_rest_in_space) {
   input.boundary.body.assign(input.boundary.position.size(), 0);
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 10; ++j)
-      for (int k = 0; k < 20; ++k) input.boundary.position.push_back({length + (i + 0.5) * dp, (j + 0.5) * dp, (k + 0.5) * dp});
+      for (int k = 0; k < 20; ++k)
+        input.boundary.position.push_back({length + (i + 0.5) * dp, (j + 0.5) * dp, (k + 0.5) * dp});
   input.boundary.body.resize(input.boundary.position.size(), 1);
   Body body;
   body.kind = BodyKind::far_lake;

@@ -15,7 +15,10 @@ struct SolitaryWave {
   double depth, height, gravity;
   double k() const { return std::sqrt(0.75 * height / (depth * depth * (depth + height))); }
   double speed() const { return std::sqrt(gravity * (depth + height)); }
-  double rise(double x) const { const double s = 1.0 / std::cosh(k() * x); return height * s * s; }
+  double rise(double x) const {
+    const double s = 1.0 / std::cosh(k() * x);
+    return height * s * s;
+  }
   double water_speed(double x) const { return speed() * rise(x) / (depth + rise(x)); }
   /// Its volume, m3 a metre of width.
   double volume() const { return 2.0 * height / k(); }
@@ -32,7 +35,8 @@ inline void set_solitary_wave(FarLake& lake, const SolitaryWave& wave, double cr
   for (std::size_t i = 0; i + 1 < x.size(); ++i) {
     const double volume = (end - x[i]) * wave.depth;
     double place = x[i];
-    for (int n = 0; n < 50; ++n) place += ((end - place) * wave.depth + beyond(place) - volume) / (wave.depth + wave.rise(place - crest));
+    for (int n = 0; n < 50; ++n)
+      place += ((end - place) * wave.depth + beyond(place) - volume) / (wave.depth + wave.rise(place - crest));
     x[i] = place;
     u[i] = direction * wave.water_speed(place - crest);
   }

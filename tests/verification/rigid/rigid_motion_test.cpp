@@ -82,22 +82,27 @@ TEST(RigidMotion, TopPrecessesAtTheExactRate) {
 // A block on a slope (gravity is inclined): rests below tan(slope) = mu, slides at g (sin - mu cos) beyond.
 // @eq rigid.contact.friction
 TEST(RigidIncline, BlockRestsOrSlides) {
-  struct Row { double degrees, friction, acceleration; };
+  struct Row {
+    double degrees, friction, acceleration;
+  };
   for (int dimensions : {2, 3}) {
-    for (const Row& row : {Row{20, 0.0, 3.35522}, Row{25, 0.4, 0.589533}, Row{30, 0.2, 3.20586}, Row{30, 0.6, 0.0}, Row{20, 0.37, 0.0}}) {
+    for (const Row& row : {Row{20, 0.0, 3.35522}, Row{25, 0.4, 0.589533}, Row{30, 0.2, 3.20586}, Row{30, 0.6, 0.0},
+                           Row{20, 0.37, 0.0}}) {
       TriangleTable walls;
       add_floor(walls, -2.0, 6.0, 0.0);
       const Vec3d lo{0, -0.5, 0}, hi{0.4, 0.5, 0.2};
       add_box(walls, 1, lo, hi);
       const Vec3d g{gravity * std::sin(row.degrees * degree), 0, -gravity * std::cos(row.degrees * degree)};
-      dem::RigidBodies bodies({box_body(lo, hi, 2000)}, walls, contact(row.friction), g, dimensions == 2 ? 0.05 : 0.2, dimensions);
+      dem::RigidBodies bodies({box_body(lo, hi, 2000)}, walls, contact(row.friction), g, dimensions == 2 ? 0.05 : 0.2,
+                              dimensions);
       bodies.release(0.0);
       run_dry(bodies, 0.2, 0.001);  // it settles: contacts carry nothing at the start
       const double settled = bodies.state(0).velocity.x;
       run_dry(bodies, 0.3, 0.001);
       const double x = bodies.state(0).centre.x - 0.2;
       if (row.acceleration > 0.0) {
-        EXPECT_NEAR((bodies.state(0).velocity.x - settled) / (0.3 * row.acceleration), 1.0, 2e-3) << row.degrees << " " << dimensions;
+        EXPECT_NEAR((bodies.state(0).velocity.x - settled) / (0.3 * row.acceleration), 1.0, 2e-3)
+            << row.degrees << " " << dimensions;
       } else {
         EXPECT_LT(std::abs(x), 3e-3) << row.degrees;
         const double before = bodies.state(0).centre.x;
@@ -116,7 +121,8 @@ TEST(RigidIncline, WaterBelowABlockCarriesItsShare) {
   add_box(walls, 1, lo, hi);
   const Vec3d g{2.0, 0, -gravity};
   dem::RigidBodies bodies({box_body(lo, hi, 2000)}, walls, contact(0.3), g, 0.05, 2);
-  bodies.set_still_water(1000.0, 0.3);  // u A = 1000 g 0.3 x 0.4 of a weight of 2000 g 0.2 x 0.4, and the side's half points
+  bodies.set_still_water(1000.0,
+                         0.3);  // u A = 1000 g 0.3 x 0.4 of a weight of 2000 g 0.2 x 0.4, and the side's half points
   bodies.release(0.0);
   run_dry(bodies, 0.5, 0.001);
   const double share = 0.3 * (0.4 + 0.05) / 0.16;
@@ -164,7 +170,8 @@ TEST(RigidContact, TwoBodiesKeepTheirMomentum) {
   TriangleTable walls;
   add_box(walls, 1, {-0.5, -0.2, -0.2}, {-0.1, 0.2, 0.2});
   add_box(walls, 2, {0.1, -0.05, 0.0}, {0.5, 0.35, 0.4});
-  Body one = box_body({-0.5, -0.2, -0.2}, {-0.1, 0.2, 0.2}, 2000), two = box_body({0.1, -0.05, 0.0}, {0.5, 0.35, 0.4}, 1000);
+  Body one = box_body({-0.5, -0.2, -0.2}, {-0.1, 0.2, 0.2}, 2000),
+       two = box_body({0.1, -0.05, 0.0}, {0.5, 0.35, 0.4}, 1000);
   one.velocity = {2.0, 0.1, 0.0};
   two.velocity = {-1.0, 0.0, 0.1};
   two.angular_velocity = {0.0, 0.0, 0.5};

@@ -27,7 +27,8 @@ inline Body add_cylinder(TriangleTable& walls, int number, double radius, double
   const double pi = 3.14159265358979323846;
   for (int k = 0; k < sides; ++k) {
     const double a = 2.0 * pi * k / sides, b = 2.0 * pi * (k + 1) / sides;
-    const Vec3d p{radius * std::sin(a), 0.0, z + radius * std::cos(a)}, q{radius * std::sin(b), 0.0, z + radius * std::cos(b)};
+    const Vec3d p{radius * std::sin(a), 0.0, z + radius * std::cos(a)},
+        q{radius * std::sin(b), 0.0, z + radius * std::cos(b)};
     const Vec3d side{0.0, 0.5, 0.0};
     add_rectangle(walls, p - side, q - side, q + side, p + side, number);
   }

@@ -17,7 +17,8 @@ constexpr double dp = 0.01;
 void add_floating(SimulationInput& input, const Vec3d& lo, const Vec3d& hi, double density) {
   const auto number = static_cast<std::int32_t>(input.bodies.size() + 1);
   input.boundary.body.resize(input.boundary.position.size(), 0);
-  const int nx = static_cast<int>(std::lround((hi.x - lo.x) / dp)), nz = static_cast<int>(std::lround((hi.z - lo.z) / dp));
+  const int nx = static_cast<int>(std::lround((hi.x - lo.x) / dp)),
+            nz = static_cast<int>(std::lround((hi.z - lo.z) / dp));
   for (int i = 0; i < nx; ++i) {
     for (int k = 0; k < nz; ++k) {
       if (std::min({i, k, nx - 1 - i, nz - 1 - k}) >= 3) continue;
@@ -82,7 +83,9 @@ TEST(RigidWater, MomentumOfBodyAndWaterIsClosed) {
 
 // Draught over height is the density ratio (Archimedes); a box wider than sqrt(6 s (1 - s)) times its height is upright.
 TEST(RigidWater, BoxFloatsAtItsDraught) {
-  struct Row { double ratio, start; };
+  struct Row {
+    double ratio, start;
+  };
   for (const Row& row : {Row{0.3, 0.05}, Row{0.6, 0.05}}) {
     SimulationInput input = floating_box(1000.0 * row.ratio, row.start);
     const auto run = make_simulation(input, "cpu");

@@ -23,7 +23,8 @@ double lattice_stiffness(double h_over_dp, int dimensions, double e = 0.01) {
     for (int j = -reach_y; j <= reach_y; ++j)
       for (int k = -reach; k <= reach; ++k) {
         const double x = i * (1.0 + e), y = j, z = k / (1.0 + e);
-        const double G = sph::wendland_slope_shape(std::max(0.0, 1.0 - std::sqrt(x * x + y * y + z * z) / (2.0 * h_over_dp)));
+        const double G =
+            sph::wendland_slope_shape(std::max(0.0, 1.0 - std::sqrt(x * x + y * y + z * z) / (2.0 * h_over_dp)));
         xx += G * x * x;
         zz += G * z * z;
       }
@@ -37,15 +38,19 @@ double quarter_period(double h_over_dp) {
   input.fluid_parameters.h = h_over_dp * dp;
   input.fluid_parameters.sound_speed = 10.0 * std::sqrt(g * depth);
   test::fill_block(input.fluid, {0, 0, 0}, {length, 0, depth}, dp, true);
-  const auto mode = [&](const Vec3d& r) { return Vec3d{std::cosh(k * r.z) * std::sin(k * r.x), 0.0, -std::sinh(k * r.z) * std::cos(k * r.x)}; };
-  for (const Vec3d& r : input.fluid.position) input.fluid.velocity.push_back(static_cast<Vec3f>(mode(r) * (0.01 * omega / std::sinh(k * depth))));
+  const auto mode = [&](const Vec3d& r) {
+    return Vec3d{std::cosh(k * r.z) * std::sin(k * r.x), 0.0, -std::sinh(k * r.z) * std::cos(k * r.x)};
+  };
+  for (const Vec3d& r : input.fluid.position)
+    input.fluid.velocity.push_back(static_cast<Vec3f>(mode(r) * (0.01 * omega / std::sinh(k * depth))));
   auto simulation = make_simulation(input, "cpu");
   const double quarter = 0.5 * pi_ / omega, step = 0.02 * quarter;
   double before = 0.0;
   for (int n = 0; n < 75; ++n) {
     double sum = 0.0;
     const FluidTable water = simulation->fluid();
-    for (std::size_t i = 0; i < water.position.size(); ++i) sum += dot(static_cast<Vec3d>(water.velocity[i]), mode(water.position[i]));
+    for (std::size_t i = 0; i < water.position.size(); ++i)
+      sum += dot(static_cast<Vec3d>(water.velocity[i]), mode(water.position[i]));
     if (sum < 0.0) return (n - sum / (sum - before)) * step / quarter;
     before = sum;
     simulation->advance_to((n + 1) * step);
@@ -60,7 +65,8 @@ TEST(Seiche, is_as_much_too_fast_as_the_lattice_is_stiff) {
   EXPECT_NEAR(lattice_stiffness(1.5, 3), 0.143, 0.001);
   EXPECT_LT(std::abs(lattice_stiffness(1.7, 2)), 0.01);
   for (const double ratio : {1.4, 1.5, 1.7}) {
-    EXPECT_NEAR(quarter_period(ratio), 1.0 / std::sqrt(1.0 + 0.5 * lattice_stiffness(ratio, 2)), 0.015) << "h = " << ratio << " dp";
+    EXPECT_NEAR(quarter_period(ratio), 1.0 / std::sqrt(1.0 + 0.5 * lattice_stiffness(ratio, 2)), 0.015)
+        << "h = " << ratio << " dp";
   }
 }
 

@@ -18,14 +18,16 @@ constexpr double pi = 3.14159265358979323846;
 // Force over Stokes' 6 pi mu a U, U being the mean velocity over the whole cell, for the share c of the cell that spheres take;
 // Hasimoto's series with the terms of Sangani and Acrivos (1982), Int. J. Multiphase Flow 8, 343, doi:10.1016/0301-9322(82)90047-7.
 double hasimoto(double c) {
-  return 1.0 / (1.0 - 1.7601 * std::cbrt(c) + c - 1.5593 * c * c + 3.9799 * std::pow(c, 8.0 / 3.0) - 3.0734 * std::pow(c, 10.0 / 3.0));
+  return 1.0 / (1.0 - 1.7601 * std::cbrt(c) + c - 1.5593 * c * c + 3.9799 * std::pow(c, 8.0 / 3.0) -
+                3.0734 * std::pow(c, 10.0 / 3.0));
 }
 
 // Radius of the sphere, over the true one, that by the law lets a force on the water drive the mean speed that it does; a = radius_in_dp dp in a cell
 // of 4a. Re = 0.5 and sound at 60 U: pressures of mu U/a compress the water by 0.1 % (at Re = 0.1 and 20 U by 5 %, and the radius is 0.06 smaller).
 double effective_radius(int radius_in_dp, double offset) {
   const double a = 0.01, L = 4.0 * a, dp = a / radius_in_dp, nu = 1e-3;
-  const double Re = 0.5, U = Re * nu / (2.0 * a), force = 6.0 * pi * nu * a * U * hasimoto(4.0 / 3.0 * pi / 64.0) / (L * L * L);
+  const double Re = 0.5, U = Re * nu / (2.0 * a),
+               force = 6.0 * pi * nu * a * U * hasimoto(4.0 / 3.0 * pi / 64.0) / (L * L * L);
   SimulationInput input;
   for (bool& axis : input.periodic) axis = true;
   input.lower = {0.0, 0.0, 0.0};
@@ -68,7 +70,8 @@ double effective_radius(int radius_in_dp, double offset) {
   double low = 0.5 * a, high = 1.5 * a;
   for (int k = 0; k < 60; ++k) {
     const double r = 0.5 * (low + high);
-    const bool too_large = 6.0 * pi * nu * r * speed * hasimoto(4.0 / 3.0 * pi * std::pow(r / L, 3)) > force * L * L * L;
+    const bool too_large =
+        6.0 * pi * nu * r * speed * hasimoto(4.0 / 3.0 * pi * std::pow(r / L, 3)) > force * L * L * L;
     (too_large ? high : low) = r;
   }
   return 0.5 * (low + high) / a;

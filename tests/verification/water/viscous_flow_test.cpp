@@ -72,7 +72,8 @@ double energy_left(double t, double shifting) {
   input.fluid_parameters.shifting = shifting;
   double start = 0.0, end = 0.0;
   for (const Vec3d& r : input.fluid.position) {
-    const Vec3d v{std::sin(2 * pi_ * r.x) * std::cos(2 * pi_ * r.z), 0.0, -std::cos(2 * pi_ * r.x) * std::sin(2 * pi_ * r.z)};
+    const Vec3d v{std::sin(2 * pi_ * r.x) * std::cos(2 * pi_ * r.z), 0.0,
+                  -std::cos(2 * pi_ * r.x) * std::sin(2 * pi_ * r.z)};
     input.fluid.velocity.push_back(static_cast<Vec3f>(v));
     start += dot(v, v);
   }
