@@ -155,7 +155,7 @@ def axis_list():
              {"accurate": 0.5}, word("heap", "end=0.3"), setting("contact.restitution"), "energy that nothing gave [%]", energy_rise, 5.0,
              log_x=False, presets=("accurate",)),
         Axis("youngs-modulus", "Young's modulus of the grains", "contact.youngs_modulus [Pa]",
-             [3e4, 1e5, 3e5, 1e6, 3e6, 1e7, 1e8], {"accurate": 1e7}, word("heap", "drop=0.2", "end=0.3"),
+             [3e4, 1e5, 3e5, 1e6, 3e6, 1e7, 1e8], None, word("heap", "drop=0.2", "end=0.3"),
              setting("contact.youngs_modulus"), "largest overlap / diameter [%]", largest("largest_overlap", 100), 10.0,
              presets=("accurate",), small=(1e7, 3e4)),
         Axis("size-ratio", "Largest over smallest grain", "ratio of diameters [1]", [1, 2, 3, 5, 7, 10, 15, 20], None,

@@ -48,6 +48,7 @@ struct Maker {
 
   explicit Maker(const Settings& s) : set(s), dp(s.get("dp", 0.01)) {
     c.scene.title = "stability atlas";
+    c.scene.contact.youngs_modulus = 1.0e7;  // the same for all scenes, where an axis does not sweep it
     c.scene.dimensions = 2;
     c.scene.dp = dp;
   }

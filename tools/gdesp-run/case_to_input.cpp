@@ -233,8 +233,7 @@ void choose_youngs_modulus(SimulationInput& input, double expected_speed) {
 
 SimulationInput case_to_input(Case& c) {
   SimulationInput input;
-  const bool chooses = !(c.scene.contact.youngs_modulus > 0.0) && !c.grains.position.empty();
-  const double speed = chooses && norm(c.scene.gravity) > 0.0 ? expected_speed(c).speed : 0.0;
+  const double speed = norm(c.scene.gravity) > 0.0 ? expected_speed(c).speed : 0.0;  // before the particles move out
   set_domain(c, input);
   input.fluid_parameters = fluid_parameters(c);
   input.contact = contact_parameters(c.scene.contact);

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "moving_surfaces.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "dem/rigid_motion.hpp"
 #include "simulation/prescribed_motion.hpp"
 

@@ -51,5 +51,13 @@ TEST(ClosestPoint, FacesEdgesVertices) {
   EXPECT_EQ(feature, TriangleFeature::vertex);
 }
 
+TEST(ClosestPoint, DistancesByHand) {
+  const Vec3d a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0};
+  const auto distance = [&](const Vec3d& p) { return norm(p - closest_point(p, a, b, c)); };
+  EXPECT_NEAR(distance({0.2, 0.2, 3}), 3.0, 1e-12);  // face
+  EXPECT_NEAR(distance({0.5, -2, 0}), 2.0, 1e-12);   // edge
+  EXPECT_NEAR(distance({-3, -4, 0}), 5.0, 1e-12);    // vertex
+}
+
 }  // namespace
 }  // namespace gdesp::geometry
