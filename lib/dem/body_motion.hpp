@@ -2,6 +2,8 @@
 // Where rigid bodies are during an interval, and what grains do to them.
 #pragma once
 
+#include <cstdint>
+
 #include "core/vec3.hpp"
 
 namespace gdesp::dem {
@@ -14,7 +16,7 @@ struct BodyMotionState {
   Vec3d centre_begin, centre_end;                          ///< m
   double rotation_begin[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< R at the begin, row by row
   double rotation_end[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};    ///< R at the end
-  bool present = true;                                     ///< false: removed
+  std::int32_t present = 1, reserved = 0;                  ///< present 0: removed
 };
 
 /// What grains gave to a body, summed over sub-steps.

@@ -68,7 +68,7 @@ ListedPose listed_pose(const BodyMotionState& state, const BodyMoment& moment) {
   }
   pose.centre = moment.centre;
   pose.centre_initial = state.centre_initial;
-  pose.present = state.present ? 1 : 0;
+  pose.present = state.present;
   return pose;
 }
 

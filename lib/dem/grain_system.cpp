@@ -175,7 +175,7 @@ double GrainSystem<Exec>::largest_body_move(const std::vector<BodyMoment>& momen
   for (std::size_t b = 1; b < moments.size() && b < listed_poses_.size(); ++b) {
     const BodyMotionState state = body_state(b);
     // A body that vanishes or comes back changes everything.
-    if ((listed_poses_[b].present != 0) != state.present) return std::numeric_limits<double>::infinity();
+    if (listed_poses_[b].present != state.present) return std::numeric_limits<double>::infinity();
     const double reach = walls_.body_reach(static_cast<int>(b), state.centre_initial);
     if (state.present) largest = std::max(largest, moved_since(listed_poses_[b], moments[b], reach));
   }

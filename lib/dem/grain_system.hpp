@@ -90,10 +90,10 @@ class GrainSystem {
   long substeps() const { return substeps_; }
   Index near_walls() const { return walls_.grains(); }
 
-  /// The complete state, with the history of contacts: a system made of the same parameters and loaded from it goes on
-  /// bit for bit. load() throws Error(input) when the bytes are not such a state.
-  std::vector<char> save();
-  void load(const std::vector<char>& bytes);
+  /// Saves or loads the complete state, with the history of contacts (exec/state_archive.hpp): a system made of the same
+  /// parameters and loaded from it goes on bit for bit. Loading throws Error(input) when the bytes are not such a state.
+  template <class Archive>
+  void archive(Archive& a);
 
  private:
   // Sorting and listing.
@@ -120,8 +120,7 @@ class GrainSystem {
   template <class Law>
   GrainSums sums_with(const ContactLaws<Law>& pair);
   void restore_lists(const std::vector<RowRange>& range, const std::vector<ContactRow>& rows,
-                     const std::vector<RollingRow>& rolling, const std::vector<WallHistory>& wall_history,
-                     const std::vector<float>& quiet_until);
+                     const std::vector<RollingRow>& rolling, const std::vector<WallHistory>& wall_history);
 
   Exec exec_;
   Domain domain_;

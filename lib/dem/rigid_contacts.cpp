@@ -39,7 +39,7 @@ Vec3d RigidBodies::point_now(std::int32_t body, std::int32_t point, const BodyMo
 ListedPose RigidBodies::pose_of(std::int32_t number) const {
   BodyMotionState state;
   state.centre_initial = start_centre(number);
-  state.present = is_there(number);
+  state.present = is_there(number) ? 1 : 0;
   return listed_pose(state, moment_of(number));
 }
 

@@ -58,8 +58,7 @@ class WallContacts {
 
   /// Impulses on bodies 1, 2, ... since the last call.
   std::vector<BodyImpulse> take_impulses();
-  std::vector<std::int64_t> impulse_units() const { return impulse_.to_host(); }
-  void set_impulse_units(const std::vector<std::int64_t>& units) { impulse_.assign(units); }
+  Array<std::int64_t, Exec>& impulse_units() { return impulse_; }
   Array<WallHistory, Exec>& history() { return history_; }
   const Array<WallHistory, Exec>& history() const { return history_; }
 

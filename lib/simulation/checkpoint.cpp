@@ -39,28 +39,20 @@ void CoupledSimulation<Exec>::archive(Archive& a) {
   a.mark("coupling");
   a(coupling_moved_, coupling_skin_, grain_dt_, grain_speed_, coupled_rebuild_, water_reset_);
   if (coupling_) a(*coupling_);
+  if (grains_) a(*grains_);
+  a.mark("end");
 }
 
 template <class Exec>
 void CoupledSimulation<Exec>::save(std::ostream& out) {
   exec::StateWriter writer(out);
   archive(writer);
-  writer.mark("grains");
-  std::vector<char> grains;
-  if (grains_) grains = grains_->save();
-  writer(grains);
-  writer.mark("end");
 }
 
 template <class Exec>
 void CoupledSimulation<Exec>::load(std::istream& in) {
   exec::StateReader reader(in);
   archive(reader);
-  reader.mark("grains");
-  std::vector<char> grains;
-  reader(grains);
-  if (grains_) grains_->load(grains);
-  reader.mark("end");
 }
 
 template void CoupledSimulation<exec::CompiledBackend>::save(std::ostream&);

@@ -104,7 +104,7 @@ template <class Exec>
 dem::BodyMotionState CoupledSimulation<Exec>::body_path(std::size_t b, double from, double dt) const {
   const Body& body = input_.bodies[b];
   dem::BodyMotionState path;
-  path.present = !removed_at(body.motion, from + dt);
+  path.present = removed_at(body.motion, from + dt) ? 0 : 1;
   if (body.kind != BodyKind::free) {
     path.centre_begin = body_moment(b, from).centre;
     path.centre_end = body_moment(b, from + dt).centre;

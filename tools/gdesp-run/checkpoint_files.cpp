@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr std::size_t block_size = std::size_t{1} << 20, kept = 2;
-constexpr char file_mark[8] = {'G', 'D', 'E', 'S', 'P', 'C', 'K', '3'};
+constexpr char file_mark[8] = {'G', 'D', 'E', 'S', 'P', 'C', 'K', '4'};
 
 struct Header {
   char mark[8];

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cli/cli.hpp"
+#include "exec/array.hpp"
 #include "exec/profile.hpp"
 #include "scene_summary.hpp"
 
@@ -65,6 +66,7 @@ void Recovery::keep(Simulation& simulation, const Guard& guard) {
     state.bytes.clear();
   }
   try {
+    state.bytes.reserve(exec::allocated_bytes());  // more than a state takes: nothing is copied as it grows
     MemoryOutput buffer(state.bytes);
     std::ostream stream(&buffer);
     stream.exceptions(std::ios::badbit);  // what the vector throws comes through
@@ -75,7 +77,7 @@ void Recovery::keep(Simulation& simulation, const Guard& guard) {
     cli::warning("too little memory to keep good states: trouble will end the run instead of being gone back from");
     return;
   }
-  const auto size = static_cast<double>(state.bytes.capacity());
+  const auto size = static_cast<double>(state.bytes.size());
   kept_.push_back(std::move(state));
   while (!kept_.empty() && size * static_cast<double>(kept_.size()) > memory_) kept_.pop_front();
   if (kept_.empty()) {

@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "dem/grain_motion.hpp"
 #include "grain_scene.hpp"
+#include "support/state_of.hpp"
 
 namespace gdesp::dem::test {
 namespace {
@@ -82,7 +83,7 @@ TEST_F(GrainSystemTest, FindsTheManyContactsOfALargeGrain) {
   Grains same({}, space({0, 0, 0}, {1, 1, 1}, 0.005), table, soft(), {}, {});
   grains.advance(1.0e-5, 3);
   same.advance(1.0e-5, 3);
-  EXPECT_TRUE(grains.save() == same.save());
+  EXPECT_TRUE(state_of(grains) == state_of(same));
 }
 
 TEST_F(GrainSystemTest, ListsHoldWhileGrainsMove) {
@@ -223,12 +224,12 @@ Grains heap(const ContactParameters& p) {
 TEST_F(GrainSystemTest, SameBytesWithOneAndTwoThreads) {
   ContactParameters p = soft();
   p.rolling_friction = 0.05;
-  std::vector<char> bytes[2];
+  std::string bytes[2];
   for (int threads : {1, 2}) {
     exec::set_threads(threads);
     Grains grains = heap(p);
     grains.advance(0.1, 500);
-    bytes[threads - 1] = grains.save();
+    bytes[threads - 1] = state_of(grains);
   }
   exec::set_threads(1);
   EXPECT_TRUE(bytes[0] == bytes[1]);
@@ -259,21 +260,21 @@ TEST_F(GrainSystemTest, CheckpointGoesOnBitForBit) {
   p.rolling_friction = 0.05;
   Grains one = heap(p), other = heap(p);
   one.advance(0.1, 517);
-  const std::vector<char> bytes = one.save();
-  other.load(bytes);
-  EXPECT_TRUE(other.save() == bytes);
+  const std::string bytes = state_of(one);
+  load_state(other, bytes);
+  EXPECT_TRUE(state_of(other) == bytes);
   one.advance(0.05, 300);
   other.advance(0.05, 300);
-  EXPECT_TRUE(one.save() == other.save());
+  EXPECT_TRUE(state_of(one) == state_of(other));
   EXPECT_GT(one.rebuilds(), 10);
 }
 
 TEST_F(GrainSystemTest, BrokenCheckpointIsRefused) {
   Grains grains = heap(soft());
-  std::vector<char> bytes = grains.save();
+  std::string bytes = state_of(grains);
   bytes.resize(bytes.size() / 2);
-  EXPECT_THROW(grains.load(bytes), Error);
-  EXPECT_THROW(grains.load({}), Error);
+  EXPECT_THROW(load_state(grains, bytes), Error);
+  EXPECT_THROW(load_state(grains, {}), Error);
 }
 
 TEST_F(GrainSystemTest, HeldGrainsStayUntilReleased) {
