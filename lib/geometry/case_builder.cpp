@@ -328,6 +328,7 @@ Case build_case(const Scene& scene, BuildReport& report, const BuildOptions& opt
   const FillSpace space = fill_space(layout, walls);
   stages.begin("filling water");
   fill_fluid(layout, space, out, report);
+  name_dry_gauges(layout, out.fluid.position, report.notes);
   warn_of_thin_walls(layout, space, walls, out.fluid.position, report);
   stages.begin("placing walls");
   const std::optional<WaterReach> reach = wanted_walls(layout, space, walls, out.fluid.position, report);

@@ -74,6 +74,22 @@ void warn_of_measures_outside(const Layout& layout, Notes& notes) {
   }
 }
 
+void name_dry_gauges(const Layout& layout, const std::vector<Vec3d>& water, Notes& notes) {
+  const bool plane = layout.scene.dimensions == 2;
+  const double reach = layout.lattice.dp;  // a lattice column is nearer than that wherever there is one
+  const Box domain{layout.domain.lower + layout.offset, layout.domain.upper + layout.offset};
+  for (const Gauge& g : layout.scene.gauges) {
+    const Vec3d at = g.at - layout.offset;
+    const bool wet = std::any_of(water.begin(), water.end(), [&](const Vec3d& p) {
+      return std::abs(p.x - at.x) < reach && (plane || std::abs(p.y - at.y) < reach);
+    });
+    if (wet || apart({g.at, g.at}, domain, layout.scene.dimensions)) continue;
+    notes.done.push_back("gauge \"" + g.name + "\" (" + span_text({g.at, g.at}, {}) +
+                         ") stands on dry ground, or in water shallower than half a particle spacing: it reads nothing "
+                         "until a wave comes");
+  }
+}
+
 void refuse_slides_elsewhere(const Layout& layout) {
   const Box ground = bounds(layout.parts.terrain);
   if (is_empty(ground)) return;

@@ -12,6 +12,10 @@ std::string span_text(const Box& box, const Vec3d& offset, bool heights = false)
 /// Warns of gauges, sections and regions that lie outside the domain.
 void warn_of_measures_outside(const Layout& layout, Notes& notes);
 
+/// Names the gauges inside the domain that no particle of the water at the start (places in case coordinates, m) stands under: on
+/// dry ground, or where the water is too shallow for this spacing.
+void name_dry_gauges(const Layout& layout, const std::vector<Vec3d>& water, Notes& notes);
+
 /// Throws Error(input) when a slide lies outside the terrain in plan, saying where both are: before anything is made of the scene.
 void refuse_slides_elsewhere(const Layout& layout);
 

@@ -280,6 +280,19 @@ std::string warnings_of(const Scene& s) {
   return all;
 }
 
+TEST(CaseBuilder, GaugesOnDryGroundAreNamed) {
+  const Folder folder;
+  Scene s = bowl_far_out(folder);
+  s.gauges = {{"shore", {571005, 5126005, 0}, false}, {"lake", {571100, 5126100, 0}, false}};
+  BuildReport report;
+  const Case made = build_case(s, report, {.scope = BuildScope::counts_only});
+  std::string all;
+  for (const auto& note : report.notes.done) all += note + "\n";
+  EXPECT_MENTIONS(all, "gauge \"shore\" (x 571005 m, y 5126005 m) stands on dry ground");
+  EXPECT_EQ(all.find("\"lake\""), std::string::npos);
+  EXPECT_GT(made.fluid.position.size(), 0u);
+}
+
 TEST(CaseBuilder, WhatLiesElsewhereIsNamedWithItsPlace) {
   const Folder folder;
   Scene s = bowl_far_out(folder);
