@@ -11,7 +11,7 @@
 namespace gdesp::tool {
 namespace {
 
-constexpr double wall_share = 0.3, coupling_share = 1.4;
+constexpr double wall_share = 0.3;
 
 /// Positions of a cube (or square) of n^dimensions points, spacing a, its lower corner half a spacing above the origin.
 template <class Visit>
@@ -55,26 +55,50 @@ SimulationInput small_tank(const SimulationInput& scene, int n) {
   return input;
 }
 
-/// Grains on a lattice that touch, without weight.
-SimulationInput small_lattice(const SimulationInput& scene, int n) {
+double mean_diameter(const SimulationInput& scene) {
   double sum = 0.0;
   for (const float d : scene.grains.diameter) sum += static_cast<double>(d);
-  const double diameter = sum / static_cast<double>(scene.grains.diameter.size()), spacing = 0.9999 * diameter;
-  SimulationInput input = empty_like(scene, n * spacing, 4.0 * diameter);
-  input.fluid_parameters.gravity = {};
+  return sum / static_cast<double>(scene.grains.diameter.size());
+}
+
+/// Adds a cube (or square) of n grains a side that just touch.
+void add_lattice(SimulationInput& input, const SimulationInput& scene, int n) {
+  const double diameter = mean_diameter(scene), spacing = 0.9999 * diameter;
   const bool plane = scene.fluid_parameters.dimensions == 2;
   for_each_site(n, scene.fluid_parameters.dimensions, [&](int i, int j, int k) {
     input.grains.position.push_back({(i + 0.5) * spacing, plane ? 0.0 : (j + 0.5) * spacing, (k + 0.5) * spacing});
     input.grains.diameter.push_back(static_cast<float>(diameter));
     input.grains.density.push_back(scene.grains.density.front());
   });
+}
+
+/// Grains alone, without weight.
+SimulationInput small_lattice(const SimulationInput& scene, int n) {
+  const double diameter = mean_diameter(scene);
+  SimulationInput input = empty_like(scene, n * diameter, 4.0 * diameter);
+  input.fluid_parameters.gravity = {};
+  add_lattice(input, scene, n);
   return input;
 }
 
-/// s of wall time a step, the first not counted: it touches the memory for the first time.
-double seconds_per_step(const SimulationInput& input, const std::string& device, int steps) {
+/// The small tank with grains in its corner: as many as fit into 0.8 of its width, at most n a side.
+SimulationInput small_mixture(const SimulationInput& scene, const SimulationInput& tank, double width, int n) {
+  SimulationInput input = tank;
+  input.coupling = scene.coupling;
+  input.coupling.real_diameter.resize(std::min<std::size_t>(scene.coupling.real_diameter.size(), 1));
+  add_lattice(input, scene, std::clamp(static_cast<int>(0.8 * width / mean_diameter(scene)), 1, n));
+  return input;
+}
+
+/// s of wall time a step, and the steps of the grains in it.
+struct StepTime {
+  double seconds = INFINITY, grain_steps = 0.0;
+};
+
+/// The first step is not counted: it touches the memory for the first time.
+StepTime time_of_step(const SimulationInput& input, const std::string& device, int steps) {
   const auto simulation = make_simulation(input, device);
-  double least = INFINITY;
+  StepTime least;
   try {
     simulation->step(1.0e30);
   } catch (const Error& problem) {  // a scene beyond all numbers: the run itself will say so
@@ -85,8 +109,10 @@ double seconds_per_step(const SimulationInput& input, const std::string& device,
     const auto begin = std::chrono::steady_clock::now();
     for (int k = 0; k < steps; ++k) simulation->step(1.0e30);
     if (device != "cpu") simulation->diagnostics();  // waits for the device
-    least = std::min(least, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / steps);
+    least.seconds = std::min(least.seconds,
+                             std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / steps);
   }
+  least.grain_steps = static_cast<double>(simulation->diagnostics().grain_substeps) / (1 + 2 * steps);
   return least;
 }
 
@@ -97,21 +123,26 @@ StepCosts measure_step_costs(const SimulationInput& scene, const std::string& de
   const sph::FluidParameters& p = scene.fluid_parameters;
   const bool plane = p.dimensions == 2;
   const int side = device == "cpu" ? (plane ? 70 : 18) : (plane ? 500 : 64);
+  const int grains_a_side = plane ? 50 : 14;
+  SimulationInput tank;
+  double tank_seconds = 0.0;
   if (!scene.fluid.position.empty()) {
-    const SimulationInput tank = small_tank(scene, side);
+    tank = small_tank(scene, side);
     const double work = static_cast<double>(tank.fluid.position.size()) +
                         wall_share * static_cast<double>(tank.boundary.position.size());
-    costs.water = seconds_per_step(tank, device, 8) / work;
+    tank_seconds = time_of_step(tank, device, 8).seconds;
+    costs.water = tank_seconds / work;
     costs.wall = wall_share * costs.water;
   }
   if (!scene.grains.position.empty()) {
-    const SimulationInput lattice = small_lattice(scene, plane ? 50 : 14);
-    constexpr double substeps = 50.0;  // of a run without water
-    costs.grain = seconds_per_step(lattice, device, 2) / substeps / static_cast<double>(lattice.grains.position.size());
+    const SimulationInput lattice = small_lattice(scene, grains_a_side);
+    const StepTime grains = time_of_step(lattice, device, 2);
+    costs.grain = grains.seconds / grains.grain_steps / static_cast<double>(lattice.grains.position.size());
     if (scene.coupling.enabled && costs.water > 0.0) {
-      const float largest = *std::max_element(scene.grains.diameter.begin(), scene.grains.diameter.end());
-      costs.coupling =
-          coupling_share * costs.water * (1.0 + std::pow(static_cast<double>(largest) / p.dp, p.dimensions));
+      const SimulationInput mixture = small_mixture(scene, tank, side * p.dp, grains_a_side);
+      const StepTime both = time_of_step(mixture, device, 8);
+      const auto n = static_cast<double>(mixture.grains.position.size());
+      costs.coupling = std::max(0.0, (both.seconds - tank_seconds) / n - costs.grain * both.grain_steps);
     }
   }
   return costs;

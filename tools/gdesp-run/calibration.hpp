@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a step costs on this device: measured when a run starts, on a small tank of water with the numerics of the scene
-// and on a small lattice of grains with its contact law (together about a tenth of a second on one core).
+// What a step costs on this device: measured when a run starts, on a small tank of water with the numerics of the scene,
+// on a small lattice of grains with its contact law, and on the lattice in the tank (some tenths of a second on one core).
 #pragma once
 
 #include <string>
@@ -17,8 +17,8 @@ struct StepCosts {
   double coupling = 0.0;  ///< per grain and step of the fluid, while it is in water
 };
 
-/// Walls and coupling are taken in proportion to water: 0.3 a wall particle (two of its passes are light), and 1.4 a grain
-/// and as much for the water of the volume that it takes, as measured in bench_coupled_step (docs/performance.md).
+/// Walls are taken in proportion to water: 0.3 a wall particle (two of its passes are light). Coupling is what the tank takes more
+/// with grains in its water, contacts not counted.
 StepCosts measure_step_costs(const SimulationInput& scene, const std::string& device);
 
 /// s of wall time for one step of the fluid with `grain_steps` steps of the grains.

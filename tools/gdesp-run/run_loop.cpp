@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdio>
+#include <ctime>
 #include <iostream>
 
 #include "checkpoint_files.hpp"
@@ -287,6 +288,7 @@ class Run {
     description_["steps"] = simulation().step_count();
     description_["t"] = simulation().time();
     description_["wall_seconds"] = wall_seconds();
+    description_["processor_seconds"] = static_cast<double>(std::clock() - processor_begun_) / CLOCKS_PER_SEC;
     description_["score"] = score();
     description_["memory"] = exec::peak_allocated_bytes();
     if (session_.options.profile)
@@ -362,6 +364,7 @@ class Run {
   std::atomic<bool> reader_gone_{false};
   std::exception_ptr closed_pipe_;  // set before reader_gone_
   Clock::time_point begun_ = Clock::now();
+  std::clock_t processor_begun_ = std::clock();
   double earlier_seconds_ = 0.0, told_ = 0.0, saved_ = 0.0;  // s of wall time: before a resumption; last said, saved
   FrameOutput output_;
   DiagnosticsLog log_;

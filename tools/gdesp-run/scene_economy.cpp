@@ -242,6 +242,7 @@ void describe_economies(SceneSummary& s, const Scene& scene, const SimulationInp
   s.json["step_costs"] = {
       {"water", costs.water}, {"wall", costs.wall}, {"grain", costs.grain}, {"coupling", costs.coupling}};
   const double grain_share = costs.grain * work.grains * work.grain_steps / step;
+  s.json["wall_share"] = costs.wall * work.walls / step;
   s.lines.push_back(
       label("cost of a step", number_text(1e3 * step, 3) + " ms: water " + percent(costs.water * work.water / step) +
                                   ", walls " + percent(costs.wall * work.walls / step) + ", grains " +

@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <spawn.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -27,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-constexpr double refinement = 1.3;                                    // between pilots
+constexpr double refinement = 1.25;                                   // between pilots, at least
 constexpr double plane_particles = 1500.0, space_particles = 3000.0;  // of water, in the coarsest pilot
 constexpr std::size_t least_pilots = 3, most_pilots = 6;
 constexpr double pilot_share = 0.1;  // of the budget, for the finest pilot
@@ -119,13 +118,11 @@ double highest_run_up(const std::string& run_folder) {
   return highest;
 }
 
-double wall_seconds_of(const std::string& run_folder) { return read_run_json(run_folder).value("wall_seconds", 0.0); }
-
-/// s, of all threads: RUSAGE_SELF or, of programs that have ended, RUSAGE_CHILDREN.
-double processor_seconds(int whose) {
-  rusage usage{};
-  ::getrusage(whose, &usage);
-  return static_cast<double>(usage.ru_utime.tv_sec) + 1.0e-6 * static_cast<double>(usage.ru_utime.tv_usec);
+/// What a run that has ended says about itself.
+Pilot pilot_of(const std::string& run_folder, double dp) {
+  const ordered_json run = read_run_json(run_folder);
+  return {dp, highest_run_up(run_folder), run.value("wall_seconds", 0.0), run.value("processor_seconds", 0.0),
+          run["scene"].value("wall_share", 0.0)};
 }
 
 /// The spacing at which the scene has as many water particles as the coarsest pilot should.
@@ -147,10 +144,8 @@ Pilot run_pilot(const RunOptions& o, const Scene& scene, double dp, const std::s
                                  "--force",      "--quiet",   "--device",
                                  o.device,       "--threads", std::to_string(o.threads)};
   if (o.t_end) words.insert(words.end(), {"--t-end", number_text(*o.t_end, 12)});
-  const double before = processor_seconds(RUSAGE_CHILDREN);
   output_of("gdesp-run", words);
-  const double processor = processor_seconds(RUSAGE_CHILDREN) - before;
-  const Pilot pilot{dp, highest_run_up(name + ".run"), wall_seconds_of(name + ".run"), processor};
+  const Pilot pilot = pilot_of(name + ".run", dp);
   cli::info("pilot: dp " + number_text(dp, 3) + " m, run-up " + number_text(pilot.run_up) + " m, " +
             duration_text(pilot.seconds));
   return pilot;
@@ -159,10 +154,11 @@ Pilot run_pilot(const RunOptions& o, const Scene& scene, double dp, const std::s
 std::vector<Pilot> run_pilots(const RunOptions& o, const Scene& scene, const Targets& targets,
                               const std::string& folder) {
   std::vector<Pilot> pilots;
-  double dp = first_dp(o, scene, folder);
+  const double unit = common_length(scene);
+  double dp = coarser_part(unit, first_dp(o, scene, folder));
   while (pilots.size() < most_pilots && !cli::interrupted()) {
     pilots.push_back(run_pilot(o, scene, dp, folder));
-    dp /= refinement;
+    dp = finer_part(unit, dp / refinement);
     const bool dear =
         targets.budget <= 0.0 || predicted_seconds(pilots, dp, scene.dimensions) > pilot_share * targets.budget;
     if (pilots.size() >= least_pilots && dear) break;
@@ -178,13 +174,15 @@ std::string percent(double share) { return number_text(100.0 * share, 3) + " %";
 
 /// Says what was reached, and writes it to target.json in the run folder.
 void tell_reached(const RunOptions& o, const Targets& targets, std::vector<Pilot> runs, const Choice& choice,
-                  double processor) {
-  const Pilot reached{choice.dp, highest_run_up(o.run_folder), wall_seconds_of(o.run_folder), processor};
+                  double common_length) {
+  const Pilot reached = pilot_of(o.run_folder, choice.dp);
   ordered_json record{{"accuracy", targets.accuracy},
                       {"budget", targets.budget},
                       {"reason", choice.reason},
                       {"dp", choice.dp},
+                      {"common_length", common_length},
                       {"predicted_seconds", choice.seconds},
+                      {"predicted_processor_seconds", choice.processor_seconds},
                       {"predicted_error", choice.error}};
   for (const Pilot& p : runs) record["pilots"].push_back(to_json(p));
   runs.push_back(reached);
@@ -212,7 +210,7 @@ int run_to_target(const RunOptions& o) {
     throw Error(
         ErrorKind::input,
         o.case_path + ": the pilot runs have no run-up to aim at (surge-analyze runup); give resolution.dp instead");
-  const Choice choice = choose_dp(pilots, targets, scene.dimensions);
+  const Choice choice = choose_dp(pilots, targets, scene.dimensions, common_length(scene));
   cli::info("chosen: dp " + number_text(choice.dp, 3) + " m, preset " + scene.numerics.preset + ": " + choice.reason +
             "; about " + duration_text(choice.seconds) + ", run-up within about " + percent(choice.error));
   fs::remove_all(folder);
@@ -222,9 +220,8 @@ int run_to_target(const RunOptions& o) {
   RunOptions run = o;
   run.case_path = case_path;
   run.overrides.clear();
-  const double before = processor_seconds(RUSAGE_SELF);
   const int code = run_case(run);
-  if (code == 0) tell_reached(o, targets, pilots, choice, processor_seconds(RUSAGE_SELF) - before);
+  if (code == 0) tell_reached(o, targets, pilots, choice, common_length(scene));
   return code;
 }
 

@@ -9,12 +9,14 @@
 #include <vector>
 
 #include "options.hpp"
+#include "scene/scene.hpp"
 
 namespace gdesp::tool {
 
-/// One run: dp (m), highest run-up over all regions (m), wall time of the run (s), processor time of all its threads (s).
+/// One run: dp (m), highest run-up over all regions (m), wall time of the run (s), processor time of all its threads (s), and the
+/// share of a step that wall particles take, as estimated when it started.
 struct Pilot {
-  double dp = 0.0, run_up = 0.0, seconds = 0.0, processor_seconds = 0.0;
+  double dp = 0.0, run_up = 0.0, seconds = 0.0, processor_seconds = 0.0, wall_share = 0.0;
 };
 
 /// Run-up against dp: a straight line through the pilots (first order), R = limit + slope dp; scatter: root mean square.
@@ -27,8 +29,13 @@ struct RunUpFit {
 };
 RunUpFit fit_run_up(const std::vector<Pilot>& pilots);
 
-/// s: the finest pilot's wall time, scaled by the power dimensions + 1 of its dp over dp (particles and steps).
+/// A run's cost over the pilot's: water and grains go with the power dimensions + 1 of the pilot's dp over dp (particles and
+/// steps), walls, a layer some particles thick, with the power dimensions.
+double cost_ratio(const Pilot& pilot, double dp, int dimensions);
+/// s of wall time, from the finest pilot's.
 double predicted_seconds(const std::vector<Pilot>& pilots, double dp, int dimensions);
+/// m; the dp that takes so many s of wall time.
+double dp_for_seconds(const std::vector<Pilot>& pilots, double seconds, int dimensions);
 
 struct Targets {
   double accuracy = 0.0, budget = 0.0;
@@ -42,9 +49,18 @@ struct Choice {
   double dp = 0.0, seconds = 0.0, error = 0.0;
   bool accuracy_met = true;
   std::string reason;
+  double processor_seconds = 0.0;
 };
-/// The coarsest dp that is accurate enough; else, or without an accuracy, the finest that the budget pays for.
-Choice choose_dp(const std::vector<Pilot>& pilots, const Targets& targets, int dimensions);
+/// The coarsest dp that is accurate enough; else, or without an accuracy, the finest that the budget pays for. With a unit (m) it is
+/// a whole part of that.
+Choice choose_dp(const std::vector<Pilot>& pilots, const Targets& targets, int dimensions, double unit = 0.0);
+
+/// m: the largest length of which the inner lengths of tanks, periods and depths of the scene are multiples, as its dp has them; its
+/// whole parts are the spacings that fit the walls. 0 where there is none: no tank, or its dp does not fit either.
+double common_length(const Scene& scene);
+/// m: the next whole part of unit that is at most, or at least, dp; dp itself where unit is less than two of it.
+double finer_part(double unit, double dp);
+double coarser_part(double unit, double dp);
 
 /// Pilots, choice, case and run of options.case_path, a scene. Returns the exit code.
 int run_to_target(const RunOptions& options);

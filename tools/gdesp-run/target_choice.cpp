@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <optional>
 
 #include "scene_summary.hpp"
 #include "target.hpp"
@@ -29,10 +31,28 @@ RunUpFit fit_run_up(const std::vector<Pilot>& pilots) {
   return fit;
 }
 
+namespace {
+
+const Pilot& finest(const std::vector<Pilot>& pilots) {
+  return *std::min_element(pilots.begin(), pilots.end(), [](const Pilot& a, const Pilot& b) { return a.dp < b.dp; });
+}
+
+}  // namespace
+
+double cost_ratio(const Pilot& pilot, double dp, int dimensions) {
+  const double finer = pilot.dp / dp;
+  return std::pow(finer, dimensions) * ((1.0 - pilot.wall_share) * finer + pilot.wall_share);
+}
+
 double predicted_seconds(const std::vector<Pilot>& pilots, double dp, int dimensions) {
-  const auto finest =
-      std::min_element(pilots.begin(), pilots.end(), [](const Pilot& a, const Pilot& b) { return a.dp < b.dp; });
-  return finest->seconds * std::pow(finest->dp / dp, dimensions + 1);
+  return finest(pilots).seconds * cost_ratio(finest(pilots), dp, dimensions);
+}
+
+double dp_for_seconds(const std::vector<Pilot>& pilots, double seconds, int dimensions) {
+  double dp = finest(pilots).dp;
+  for (int k = 0; k < 20; ++k)
+    dp *= std::pow(predicted_seconds(pilots, dp, dimensions) / seconds, 1.0 / (dimensions + 1));
+  return dp;
 }
 
 namespace {
@@ -64,18 +84,53 @@ double parse_duration(const std::string& text) {
                        "--budget " + text + ": a wall time is needed, such as 90s, 10min or 2h");
 }
 
-Choice choose_dp(const std::vector<Pilot>& pilots, const Targets& targets, int dimensions) {
+double common_length(const Scene& scene) {
+  const auto has = [](const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  std::vector<double> lengths;
+  std::optional<double> floor;
+  for (const Wall& wall : scene.walls) {
+    if (!wall.tank) continue;
+    const Vec3d size = wall.tank->upper - wall.tank->lower;
+    if (!floor) floor = wall.tank->lower.z;
+    lengths.push_back(size.x);
+    if (scene.dimensions == 3) lengths.push_back(size.y);
+    if (!has(wall.open, "top")) lengths.push_back(size.z);
+  }
+  if (!floor) return 0.0;
+  if (scene.domain)
+    for (int axis = 0; axis < 3; ++axis)
+      if (has(scene.periodic, std::string(1, "xyz"[axis])))
+        lengths.push_back(scene.domain->upper[axis] - scene.domain->lower[axis]);
+  for (const FluidFill& fill : scene.fluid.fill) {
+    if (fill.kind == "level") lengths.push_back(fill.level - *floor);
+    if (fill.box) lengths.push_back(fill.box->upper.z - fill.box->lower.z);
+  }
+  long common = 0;
+  for (const double length : lengths) {
+    const double spacings = std::round(length / scene.dp);
+    if (std::abs(length / scene.dp - spacings) > 0.02) return 0.0;
+    common = std::gcd(common, static_cast<long>(spacings));
+  }
+  return static_cast<double>(common) * scene.dp;
+}
+
+double finer_part(double unit, double dp) {
+  return unit < 2.0 * dp || dp <= 0.0 ? dp : unit / std::ceil(unit / dp - 1.0e-6);
+}
+
+double coarser_part(double unit, double dp) { return unit < 2.0 * dp ? dp : unit / std::floor(unit / dp + 1.0e-6); }
+
+Choice choose_dp(const std::vector<Pilot>& pilots, const Targets& targets, int dimensions, double unit) {
   const RunUpFit fit = fit_run_up(pilots);
-  const Pilot finest =
-      *std::min_element(pilots.begin(), pilots.end(), [](const Pilot& a, const Pilot& b) { return a.dp < b.dp; });
   double spent = 0.0;
   for (const Pilot& p : pilots) spent += p.seconds;
   const double left = std::max(targets.budget - spent, 0.1 * targets.budget);
-  const double affordable =
-      targets.budget > 0.0 ? finest.dp * std::pow(finest.seconds / left, 1.0 / (dimensions + 1)) : 0.0;
+  const double affordable = targets.budget > 0.0 ? coarser_part(unit, dp_for_seconds(pilots, left, dimensions)) : 0.0;
   Choice choice;
   if (targets.accuracy > 0.0) {
-    const double wanted = std::min(fit.dp_for(targets.accuracy), finest.dp);
+    const double wanted = finer_part(unit, std::min(fit.dp_for(targets.accuracy), finest(pilots).dp));
     choice.accuracy_met = wanted > 0.0 && wanted >= affordable;
     if (choice.accuracy_met)
       choice = {wanted, 0.0, 0.0, true, "the accuracy asked for"};
@@ -89,7 +144,9 @@ Choice choose_dp(const std::vector<Pilot>& pilots, const Targets& targets, int d
   } else {
     choice = {affordable, 0.0, 0.0, true, "all that the budget pays for"};
   }
-  choice.seconds = predicted_seconds(pilots, choice.dp, dimensions);
+  const double ratio = cost_ratio(finest(pilots), choice.dp, dimensions);
+  choice.seconds = ratio * finest(pilots).seconds;
+  choice.processor_seconds = ratio * finest(pilots).processor_seconds;
   choice.error = fit.error(choice.dp);
   return choice;
 }

@@ -187,6 +187,47 @@ TEST(Targets, choose_the_dp_of_an_exact_first_order_method) {
   EXPECT_THROW(choose_dp(pilots, {0.01, 0.0}, 3), Error) << "scatter";
 }
 
+/// A tank n spacings wide, without a lid, its walls three particles thick: n^3 of water and the layers of five faces, each 0.3 of water.
+TEST(Targets, count_walls_with_the_power_of_a_surface) {
+  const auto share = [](double n) { return 0.3 * 15.0 * n * n / (n * n * n + 0.3 * 15.0 * n * n); };
+  const auto cost = [](double n) { return 1.0e-4 * n * (n * n * n + 0.3 * 15.0 * n * n); };  // steps with 1/dp
+  std::vector<Pilot> pilots;
+  for (double n : {8.0, 10.0, 14.0}) pilots.push_back({1.0 / n, 1.0 - 1.0 / n, cost(n), 2.0 * cost(n), share(n)});
+  EXPECT_NEAR(predicted_seconds(pilots, 1.0 / 40.0, 3), cost(40.0), 1e-9 * cost(40.0));
+  EXPECT_NEAR(dp_for_seconds(pilots, cost(40.0), 3), 1.0 / 40.0, 1e-9);
+  const Choice choice = choose_dp(pilots, {1.0 / 39.0, 0.0}, 3);
+  EXPECT_NEAR(choice.seconds, cost(1.0 / choice.dp), 1e-6 * choice.seconds);
+  EXPECT_NEAR(choice.processor_seconds, 2.0 * choice.seconds, 1e-9 * choice.seconds);
+}
+
+TEST(Targets, take_spacings_that_fit_the_walls) {
+  Scene s = tank_scene();  // 4 m x 1 m, water 1 m deep
+  s.walls[0].open = {"top"};
+  EXPECT_NEAR(common_length(s), 1.0, 1e-12);
+  s.walls[0].tank->upper.y = 0.6;
+  EXPECT_NEAR(common_length(s), 0.2, 1e-12);
+  s.dimensions = 2;
+  EXPECT_NEAR(common_length(s), 1.0, 1e-12) << "no width in the plane";
+  s.dp = 0.3;
+  EXPECT_EQ(common_length(s), 0.0) << "its own spacing does not fit";
+  s.walls.clear();
+  EXPECT_EQ(common_length(s), 0.0);
+  EXPECT_NEAR(finer_part(0.2, 0.06), 0.05, 1e-12);
+  EXPECT_NEAR(coarser_part(0.2, 0.06), 0.2 / 3.0, 1e-12);
+  EXPECT_NEAR(finer_part(0.2, 0.05), 0.05, 1e-12);
+  EXPECT_EQ(finer_part(0.0, 0.06), 0.06) << "nothing to fit";
+  EXPECT_EQ(coarser_part(0.1, 0.06), 0.06) << "its parts are too far apart";
+}
+
+TEST(Targets, budget_takes_the_next_coarser_spacing_that_fits_and_accuracy_the_next_finer) {
+  std::vector<Pilot> pilots;
+  for (double dp : {0.8, 0.6, 0.4}) pilots.push_back({dp, 2.0 - 0.5 * dp, std::pow(0.4 / dp, 4)});
+  EXPECT_NEAR(choose_dp(pilots, {0.05, 0.0}, 3, 0.7).dp, 0.175, 1e-9) << "0.2 is asked for";
+  const Choice choice = choose_dp(pilots, {0.0, 1.0 + std::pow(2.0 / 3.0, 4) + 1.0 / 16.0 + 16.0}, 3, 0.7);
+  EXPECT_NEAR(choice.dp, 0.7 / 3.0, 1e-9) << "0.2 is paid for";
+  EXPECT_NEAR(choice.seconds, std::pow(0.4 / choice.dp, 4), 1e-9);
+}
+
 /// A column of grains collapses on a rough floor between rough walls: all of it, or half of it against a plane of symmetry. Where its
 /// grains are in the mean, over some starts.
 Vec3d heap(bool whole, bool smooth) {
