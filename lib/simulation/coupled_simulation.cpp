@@ -104,13 +104,13 @@ void CoupledSimulation<Exec>::fluid_split_step(float dt) {
   fluid_.half_drift(0.5f * dt, density_lag_ + 0.5f * dt);
   fluid_.trim_lists(largest_move_);
   porosity_now(0.5 * static_cast<double>(dt));
+  gather_forces();
   if (input_.fluid_parameters.extrapolated_walls) {
-    fluid_.extrapolate_walls();
+    fluid_.extrapolate_walls();  // of the mixture pressure
   } else {
     fluid_.wall_continuity_pass();
     fluid_.evolve_dynamic_walls(dt);
   }
-  gather_forces();
   fluid_.spacing_pass();
   fluid_.momentum_pass();
   measure_loads(false);
@@ -128,13 +128,13 @@ void CoupledSimulation<Exec>::fluid_verlet_step(float dt) {
   fluid_.verlet_predict(dt);
   fluid_.trim_lists(2.0 * largest_move_);  // the whole step lies behind
   porosity_now(0.5 * static_cast<double>(dt));
+  gather_forces();
   if (input_.fluid_parameters.extrapolated_walls) {
-    fluid_.extrapolate_walls();
+    fluid_.extrapolate_walls();  // of the mixture pressure
   } else {
     fluid_.wall_continuity_pass();
     fluid_.evolve_dynamic_walls(dt);
   }
-  gather_forces();
   fluid_.combined_pass();
   measure_loads(true);
   couple_grains(static_cast<double>(dt));

@@ -24,6 +24,7 @@ struct FluidPass {
   const float* mass_share;
   const float* own_pressure;  // null: A of the record
   const float* wall_ghost;    // null: no no-slip walls
+  const float* porosity;      // null: 1
   float* rate;
   bool trims;
   ClusterTrim fluid_trim, wall_trim;
@@ -66,11 +67,16 @@ struct FluidPass {
       const float* rj = fluid + record_offset(j);
       add_cluster<false>(lanes, i, rj, rj + row_vx, Real(1.0f), shift, rates);
     });
+    const Real between_water = rates.compression;
     for_each_cluster(wall_list, c, [&](Index j, const Vec3f& shift) {
       const float* rj = walls + record_offset(j);
       const float* vj = wall_ghost ? wall_ghost + 16 * static_cast<std::int64_t>(j) : rj + row_vx;
       add_cluster<true>(lanes, i, rj, vj, lanes.load_j(wall_friction + 4 * static_cast<std::int64_t>(j)), shift, rates);
     });
+    if (WithContinuity && porosity) {  // walls count 2 - eps times
+      const Real solid = Real(1.0f) - lanes.load_i(porosity + 4 * static_cast<std::int64_t>(c));
+      rates.compression += solid * (rates.compression - between_water);
+    }
     float* out = rate + 16 * static_cast<std::int64_t>(c);
     // V_i / (m_i / rho0), that is rho0 / rho_i (and 1 in the form of the paper).
     const Real specific_volume = lanes.load_i(ri + row_B) / lanes.load_i(mass_share + 4 * static_cast<std::int64_t>(c));
@@ -355,7 +361,9 @@ void FluidSystem<Exec>::run_fluid_pass_kind(const char* name) {
                                                     fluid_fluid_.view(), fluid_wall_.view(), record_.data(),
                                                     wall_record_.data(), wall_friction_.data(), mass_share_.data(),
                                                     M && !C && p.tensile_control ? own_pressure_.data() : nullptr,
-                                                    M && !C && no_slip_ ? wall_ghost_.data() : nullptr, rate_.data(),
+                                                    M && !C && no_slip_ ? wall_ghost_.data() : nullptr,
+                                                    porous_ && p.extrapolated_walls ? porosity_.data() : nullptr,
+                                                    rate_.data(),
                                                     trims, fluid_fluid_.trim(record_.data(), record_.data(), cutoff),
                                                     fluid_wall_.trim(record_.data(), wall_record_.data(), cutoff)}));
 }

@@ -158,6 +158,36 @@ TEST(Coupling, a_dense_block_into_water_makes_no_energy_and_no_spray) {
   }
 }
 
+// A column of grains, full of water, collapses from the corner of two walls: what walls do to the water between grains makes no
+// energy. Over the weight on one spacing: 0.03 %, with the walls' pressure taken from the water's own 0.3 % (docs/decisions/0048).
+TEST(Coupling, walls_make_no_energy_in_pores) {
+  const double dp = 0.003, d = 0.004, side = 0.036;
+  SimulationInput input = test::tank_input({0.09, 0.09, 0.06}, side, dp, 3);
+  input.fluid_parameters.h = 1.5 * dp;
+  input.fluid_parameters.artificial_viscosity = 0.05;
+  input.fluid_parameters.density_diffusion = 0.1;
+  input.fluid_parameters.sound_speed = 10.0;
+  test::fill_block(input.fluid, {0, 0, 0}, {side, side, side}, dp, false);
+  for (int x = 0; x < 9; ++x)
+    for (int y = 0; y < 9; ++y)
+      for (int z = 0; z < 9; ++z) {
+        input.grains.position.push_back({d * (x + 0.5), d * (y + 0.5), d * (z + 0.5)});
+        input.grains.diameter.push_back(static_cast<float>(d));
+        input.grains.density.push_back(2660.0f);
+      }
+  input.contact.youngs_modulus = 2e7;
+  auto simulation = make_simulation(input, "cpu");
+  const Diagnostics start = simulation->diagnostics();
+  double least = energy(start), rise = 0.0;
+  while (simulation->time() < 0.01) {
+    simulation->step(0.01);
+    const double now = energy(simulation->diagnostics());
+    rise = std::max(rise, now - least);
+    least = std::min(least, now);
+  }
+  EXPECT_LT(rise, 1e-3 * (start.fluid_mass + start.grain_mass) * 9.81 * dp);
+}
+
 // Pores hold what the grains leave, whether the table has a full lattice there or one thinned to the pores. Counted exactly: a
 // periodic box all full of evenly spread grains. A kernel sum that takes the particle itself for more than its room finds 3 %
 // (plane) and 2 % less.
