@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 
 #include "core/error.hpp"
 #include "simulation/simulation.hpp"
@@ -90,9 +91,9 @@ SimulationInput small_mixture(const SimulationInput& scene, const SimulationInpu
   return input;
 }
 
-/// s of wall time a step, and the steps of the grains in it.
+/// s of wall time a step, of processor time (on a device: of wall time), and the steps of the grains in it.
 struct StepTime {
-  double seconds = INFINITY, grain_steps = 0.0;
+  double seconds = INFINITY, processor_seconds = INFINITY, grain_steps = 0.0;
 };
 
 /// The first step is not counted: it touches the memory for the first time.
@@ -107,10 +108,13 @@ StepTime time_of_step(const SimulationInput& input, const std::string& device, i
   }
   for (int repeat = 0; repeat < 2; ++repeat) {  // the better of two: others may use the machine
     const auto begin = std::chrono::steady_clock::now();
+    const std::clock_t processor_begin = std::clock();
     for (int k = 0; k < steps; ++k) simulation->step(1.0e30);
     if (device != "cpu") simulation->diagnostics();  // waits for the device
-    least.seconds = std::min(least.seconds,
-                             std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / steps);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    const double processor = static_cast<double>(std::clock() - processor_begin) / CLOCKS_PER_SEC;
+    least.seconds = std::min(least.seconds, seconds / steps);
+    least.processor_seconds = std::min(least.processor_seconds, (device == "cpu" ? processor : seconds) / steps);
   }
   least.grain_steps = static_cast<double>(simulation->diagnostics().grain_substeps) / (1 + 2 * steps);
   return least;
@@ -146,6 +150,20 @@ StepCosts measure_step_costs(const SimulationInput& scene, const std::string& de
     }
   }
   return costs;
+}
+
+double growth_of_cost(const SimulationInput& scene, const std::string& device, double few, double many) {
+  constexpr double most = 1.0e6;
+  constexpr int steps = 8;
+  const auto cost = [&](double particles) {
+    const int side =
+        static_cast<int>(std::lround(std::pow(std::min(particles, most), 1.0 / scene.fluid_parameters.dimensions)));
+    const SimulationInput tank = small_tank(scene, std::max(side, 4));
+    const double work = static_cast<double>(tank.fluid.position.size()) +
+                        wall_share * static_cast<double>(tank.boundary.position.size());
+    return time_of_step(tank, device, steps).processor_seconds / work;
+  };
+  return cost(many) / cost(few);
 }
 
 double step_seconds(const StepCosts& costs, const StepWork& work) {

@@ -21,6 +21,10 @@ struct StepCosts {
 /// with grains in its water, contacts not counted.
 StepCosts measure_step_costs(const SimulationInput& scene, const std::string& device);
 
+/// What a water particle costs a step among `many`, over what it costs among `few`: more data than the caches hold take longer.
+/// Both on a tank with the numerics of the scene; processor time on cpu, else wall time.
+double growth_of_cost(const SimulationInput& scene, const std::string& device, double few, double many);
+
 /// s of wall time for one step of the fluid with `grain_steps` steps of the grains.
 struct StepWork {
   double water = 0.0, walls = 0.0, grains = 0.0, grain_steps = 1.0;

@@ -13,6 +13,8 @@
 #include <filesystem>
 #include <sstream>
 
+#include "calibration.hpp"
+#include "case_to_input.hpp"
 #include "io/safe_file.hpp"
 #include "run_files.hpp"
 #include "run_loop.hpp"
@@ -166,8 +168,24 @@ std::vector<Pilot> run_pilots(const RunOptions& o, const Scene& scene, const Tar
   return pilots;
 }
 
+/// How the cost of a particle grows from the pilot's number of particles to that of a run so much finer.
+double growth_up_to(const RunOptions& o, const std::string& case_path, double finer) {
+  Case pilot = read_case(case_path, {});
+  const SimulationInput input = case_to_input(pilot);
+  const auto few = static_cast<double>(input.fluid.position.size());
+  const double more = std::pow(finer, input.fluid_parameters.dimensions);
+  if (!(few > 0.0) || more < 1.5) return 0.0;
+  const double growth = growth_of_cost(input, resolve_device(o.device), few, more * few);
+  return std::clamp(std::log(growth) / std::log(more), 0.0, 1.0);
+}
+
 ordered_json to_json(const Pilot& p) {
-  return {{"dp", p.dp}, {"run_up", p.run_up}, {"wall_seconds", p.seconds}, {"processor_seconds", p.processor_seconds}};
+  return {{"dp", p.dp},
+          {"run_up", p.run_up},
+          {"wall_seconds", p.seconds},
+          {"processor_seconds", p.processor_seconds},
+          {"wall_share", p.wall_share},
+          {"growth", p.growth}};
 }
 
 std::string percent(double share) { return number_text(100.0 * share, 3) + " %"; }
@@ -204,13 +222,16 @@ int run_to_target(const RunOptions& o) {
   const Scene scene = read_scene(o.case_path, o.overrides);
   const std::string folder = o.run_folder + ".pilots";
   fs::create_directories(folder);
-  const std::vector<Pilot> pilots = run_pilots(o, scene, targets, folder);
+  std::vector<Pilot> pilots = run_pilots(o, scene, targets, folder);
   if (cli::interrupted()) return 130;
   if (!(fit_run_up(pilots).limit > 0.0))
     throw Error(
         ErrorKind::input,
         o.case_path + ": the pilot runs have no run-up to aim at (surge-analyze runup); give resolution.dp instead");
-  const Choice choice = choose_dp(pilots, targets, scene.dimensions, common_length(scene));
+  const double unit = common_length(scene);
+  pilots.back().growth =
+      growth_up_to(o, folder + "/pilot.case", pilots.back().dp / choose_dp(pilots, targets, scene.dimensions, unit).dp);
+  const Choice choice = choose_dp(pilots, targets, scene.dimensions, unit);
   cli::info("chosen: dp " + number_text(choice.dp, 3) + " m, preset " + scene.numerics.preset + ": " + choice.reason +
             "; about " + duration_text(choice.seconds) + ", run-up within about " + percent(choice.error));
   fs::remove_all(folder);
@@ -221,7 +242,7 @@ int run_to_target(const RunOptions& o) {
   run.case_path = case_path;
   run.overrides.clear();
   const int code = run_case(run);
-  if (code == 0) tell_reached(o, targets, pilots, choice, common_length(scene));
+  if (code == 0) tell_reached(o, targets, pilots, choice, unit);
   return code;
 }
 

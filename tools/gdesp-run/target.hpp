@@ -13,10 +13,11 @@
 
 namespace gdesp::tool {
 
-/// One run: dp (m), highest run-up over all regions (m), wall time of the run (s), processor time of all its threads (s), and the
-/// share of a step that wall particles take, as estimated when it started.
+/// One run: dp (m), highest run-up over all regions (m), wall time of the run (s), processor time of all its threads (s), the share
+/// of a step that wall particles take, as estimated when it started, and how the cost of a particle grows: with that power of
+/// their number.
 struct Pilot {
-  double dp = 0.0, run_up = 0.0, seconds = 0.0, processor_seconds = 0.0, wall_share = 0.0;
+  double dp = 0.0, run_up = 0.0, seconds = 0.0, processor_seconds = 0.0, wall_share = 0.0, growth = 0.0;
 };
 
 /// Run-up against dp: a straight line through the pilots (first order), R = limit + slope dp; scatter: root mean square.
@@ -30,7 +31,7 @@ struct RunUpFit {
 RunUpFit fit_run_up(const std::vector<Pilot>& pilots);
 
 /// A run's cost over the pilot's: water and grains go with the power dimensions + 1 of the pilot's dp over dp (particles and
-/// steps), walls, a layer some particles thick, with the power dimensions.
+/// steps), walls, a layer some particles thick, with the power dimensions; both times what a particle costs more among more.
 double cost_ratio(const Pilot& pilot, double dp, int dimensions);
 /// s of wall time, from the finest pilot's.
 double predicted_seconds(const std::vector<Pilot>& pilots, double dp, int dimensions);

@@ -41,7 +41,7 @@ const Pilot& finest(const std::vector<Pilot>& pilots) {
 
 double cost_ratio(const Pilot& pilot, double dp, int dimensions) {
   const double finer = pilot.dp / dp;
-  return std::pow(finer, dimensions) * ((1.0 - pilot.wall_share) * finer + pilot.wall_share);
+  return std::pow(finer, dimensions * (1.0 + pilot.growth)) * ((1.0 - pilot.wall_share) * finer + pilot.wall_share);
 }
 
 double predicted_seconds(const std::vector<Pilot>& pilots, double dp, int dimensions) {

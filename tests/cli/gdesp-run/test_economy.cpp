@@ -157,6 +157,12 @@ TEST(StepCosts, are_measured_and_add_up) {
   EXPECT_NEAR(step_seconds(c, {10.0, 0.0, 2.0, 3.0}), 10.0 * c.water + 6.0 * c.grain + 2.0 * c.coupling, 1e-12);
 }
 
+TEST(StepCosts, grow_little_with_the_number_of_particles) {
+  const double growth = growth_of_cost(channel(), "cpu", 1000.0, 4000.0);
+  EXPECT_GT(growth, 0.3);
+  EXPECT_LT(growth, 3.0);
+}
+
 TEST(Targets, are_read_with_their_units) {
   EXPECT_DOUBLE_EQ(parse_accuracy("5%"), 0.05);
   EXPECT_DOUBLE_EQ(parse_accuracy("0.02"), 0.02);
@@ -195,6 +201,10 @@ TEST(Targets, count_walls_with_the_power_of_a_surface) {
   for (double n : {8.0, 10.0, 14.0}) pilots.push_back({1.0 / n, 1.0 - 1.0 / n, cost(n), 2.0 * cost(n), share(n)});
   EXPECT_NEAR(predicted_seconds(pilots, 1.0 / 40.0, 3), cost(40.0), 1e-9 * cost(40.0));
   EXPECT_NEAR(dp_for_seconds(pilots, cost(40.0), 3), 1.0 / 40.0, 1e-9);
+  pilots.back().growth = 0.1;
+  EXPECT_NEAR(predicted_seconds(pilots, 1.0 / 28.0, 3), std::pow(8.0, 0.1) * cost(28.0), 1e-9 * cost(28.0))
+      << "8 times as many";
+  pilots.back().growth = 0.0;
   const Choice choice = choose_dp(pilots, {1.0 / 39.0, 0.0}, 3);
   EXPECT_NEAR(choice.seconds, cost(1.0 / choice.dp), 1e-6 * choice.seconds);
   EXPECT_NEAR(choice.processor_seconds, 2.0 * choice.seconds, 1e-9 * choice.seconds);
