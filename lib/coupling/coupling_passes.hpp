@@ -12,10 +12,11 @@ namespace gdesp::coupling {
 // Rows of the nodes' sums (four floats each).
 constexpr Index node_rows = 64;
 enum NodeRow {
-  node_water = 0,      // sum_a u_a S/V
-  node_porosity = 4,   // sum_a u_a eps_a S/V
-  node_pressure = 8,   // sum_a u_a (P_a - rho g.(r_a - r_n)) S/V
+  node_water = 0,      // sum_a V_a S/V
+  node_boosted = 4,    // sum_a u_a S/V
+  node_pressure = 8,   // sum_a V_a (P_a - rho g.(r_a - r_n)) S/V
   node_velocity = 12,  // sum_a u_a v_a S/V
+  node_drag = 12,      // then: sum_i (D_i/N_i) S/V
   node_wall = 24,      // sum_w V_w S/V
   node_solid = 28,     // sum_i V_i (w/N) S/V
   node_slope = 32,     // sum_i slope_i S/V
@@ -111,25 +112,24 @@ struct WaterAtNodes {
   NodePairs pairs;
   Vec3f rho_g;
   const float* water;
-  const float* porosity;
   float* nodes;
   template <class Lanes>
   GDESP_HD void operator()(Index c, const Lanes& lanes) const {
     using Real = typename Lanes::Real;
     const Real zero(0.0f), inverse_volume(pairs.spline.inverse_volume);
-    Real N = zero, eps = zero, pressure = zero, velocity[3] = {zero, zero, zero};
+    Real water_sum = zero, boosted = zero, pressure = zero, velocity[3] = {zero, zero, zero};
     pairs.for_each(c, lanes, [&](Index j, const Place<Real>& r) {
       const float* rj = pairs.of_j + record_offset(j);
       const float* wj = rows_of(water, water_rows, j);
-      const Real uS = lanes.load_j(wj) * pairs.spline.weight(r.x, r.y, r.z);
-      N += uS;
-      eps += uS * lanes.load_j(porosity + 4 * static_cast<std::int64_t>(j));
-      pressure += uS * (lanes.load_j(wj + 4) + dot(rho_g, r));  // r: from the water to the node
+      const Real VS = lanes.load_j(wj) * pairs.spline.weight(r.x, r.y, r.z), uS = VS * lanes.load_j(wj + water_boost);
+      water_sum += VS;
+      boosted += uS;
+      pressure += VS * (lanes.load_j(wj + 4) + dot(rho_g, r));  // r: from the water to the node
       for (int k = 0; k < 3; ++k) velocity[k] += uS * lanes.load_j(rj + 16 + 4 * k);
     });
     float* out = rows_of(nodes, node_rows, c);
-    lanes.store_sum_i(out + node_water, N * inverse_volume);
-    lanes.store_sum_i(out + node_porosity, eps * inverse_volume);
+    lanes.store_sum_i(out + node_water, water_sum * inverse_volume);
+    lanes.store_sum_i(out + node_boosted, boosted * inverse_volume);
     lanes.store_sum_i(out + node_pressure, pressure * inverse_volume);
     for (int k = 0; k < 3; ++k) lanes.store_sum_i(out + node_velocity + 4 * k, velocity[k] * inverse_volume);
   }
@@ -145,31 +145,39 @@ struct GatherAtGrains {
   GDESP_HD void operator()(Index c, const Lanes& lanes) const {
     using Real = typename Lanes::Real;
     const Real zero(0.0f);
-    Real N = zero, eps = zero, pressure = zero, velocity[3] = {zero, zero, zero};
+    Real water = zero, boosted = zero, pressure = zero, solid = zero, velocity[3] = {zero, zero, zero};
     Real water_gradient[3] = {zero, zero, zero}, pressure_gradient[3] = {zero, zero, zero};
+    Real wall = zero, wall_gradient[3] = {zero, zero, zero};
     pairs.for_each(c, lanes, [&](Index j, const Place<Real>& r) {
       AveragingSpline::Gradient<Real> gradient;
       const Real S = pairs.spline.weight(r.x, r.y, r.z, gradient);
       const float* n = rows_of(nodes, node_rows, j);
       const Real U = lanes.load_j(n + node_water), P = lanes.load_j(n + node_pressure) + U * dot(rho_g, r);
-      N += S * U;
-      eps += S * lanes.load_j(n + node_porosity);
+      const Real walls = lanes.load_j(n + node_wall);
+      water += S * U;
+      wall += S * walls;
+      boosted += S * lanes.load_j(n + node_boosted);
+      solid += S * lanes.load_j(n + node_solid);
       pressure += S * P;
       const Real d[3] = {gradient.x, gradient.y, gradient.z};
       for (int k = 0; k < 3; ++k) {
         velocity[k] += S * lanes.load_j(n + node_velocity + 4 * k);
         water_gradient[k] += d[k] * U;
         pressure_gradient[k] += d[k] * P;
+        wall_gradient[k] += d[k] * walls;
       }
     });
     float* out = rows_of(sums, sum_rows, c);
-    lanes.store_sum_i(out + sum_water, N);
-    lanes.store_sum_i(out + sum_porosity, eps);
+    lanes.store_sum_i(out + sum_water, water);
+    lanes.store_sum_i(out + sum_boosted, boosted);
+    lanes.store_sum_i(out + sum_solid, solid);
     lanes.store_sum_i(out + sum_pressure, pressure);
+    lanes.store_sum_i(out + sum_wall, wall);
     for (int k = 0; k < 3; ++k) {
       lanes.store_sum_i(out + sum_velocity + 4 * k, velocity[k]);
       lanes.store_sum_i(out + sum_water_gradient + 4 * k, water_gradient[k]);
       lanes.store_sum_i(out + sum_pressure_gradient + 4 * k, pressure_gradient[k]);
+      lanes.store_sum_i(out + sum_wall_gradient + 4 * k, wall_gradient[k]);
     }
   }
 };
@@ -226,7 +234,7 @@ struct MixturePressure {
       const Real ratio = Real(1.0f) + lanes.load_i(density + 4 * static_cast<std::int64_t>(c));
       scale = scale / (ratio * ratio);
     }
-    lanes.store_sum_i(fluid + record_offset(c) + 28, (own + lanes.load_i(w + 8) * of_grains) * scale);
+    lanes.store_sum_i(fluid + record_offset(c) + 28, (own + of_grains) * scale);
   }
 };
 
@@ -240,7 +248,7 @@ struct ReactionAtNodes {
     using Real = typename Lanes::Real;
     const Real zero(0.0f), inverse_volume(pairs.spline.inverse_volume);
     const float g[3] = {rho_g.x, rho_g.y, rho_g.z};
-    Real pull[3] = {zero, zero, zero}, slope_gradient[3] = {zero, zero, zero};
+    Real pull[3] = {zero, zero, zero}, slope_gradient[3] = {zero, zero, zero}, drag[3] = {zero, zero, zero};
     pairs.for_each(c, lanes, [&](Index j, const Place<Real>& r) {
       const float* rj = pairs.of_j + record_offset(j);
       // At the grain, which is at -r from the node.
@@ -249,7 +257,8 @@ struct ReactionAtNodes {
       const Real slope = lanes.load_j(rj + row_volume), push = lanes.load_j(rj + row_offset) - slope * dot(rho_g, r);
       const Real d[3] = {gradient.x, gradient.y, gradient.z};
       for (int k = 0; k < 3; ++k) {
-        pull[k] += push * d[k] + S * (slope * Real(g[k]) - lanes.load_j(rj + row_force + 4 * k));
+        pull[k] += push * d[k] + S * slope * Real(g[k]);
+        drag[k] += S * lanes.load_j(rj + row_force + 4 * k);
         slope_gradient[k] += slope * d[k];
       }
     });
@@ -257,6 +266,7 @@ struct ReactionAtNodes {
     for (int k = 0; k < 3; ++k) {
       lanes.store_sum_i(out + node_pull + 4 * k, pull[k] * inverse_volume);
       lanes.store_sum_i(out + node_slope_gradient + 4 * k, slope_gradient[k] * inverse_volume);
+      lanes.store_sum_i(out + node_drag + 4 * k, drag[k] * inverse_volume);
     }
   }
 };
@@ -273,13 +283,14 @@ struct ReactionOnFluid {
   GDESP_HD void operator()(Index c, const Lanes& lanes) const {
     using Real = typename Lanes::Real;
     const float* w = rows_of(water, water_rows, c);
-    const Real P = lanes.load_i(w + 4);
+    const Real P = lanes.load_i(w + 4), boost = lanes.load_i(w + water_boost);
     Real f[3] = {Real(0.0f), Real(0.0f), Real(0.0f)};
     pairs.for_each(c, lanes, [&](Index j, const Place<Real>& r) {  // r: from the node to the water
       const float* n = rows_of(nodes, node_rows, j);
       const Real S = pairs.spline.weight(r.x, r.y, r.z), p = P - dot(rho_g, r);
       for (int k = 0; k < 3; ++k) {
-        f[k] += S * (lanes.load_j(n + node_pull + 4 * k) + p * lanes.load_j(n + node_slope_gradient + 4 * k));
+        f[k] += S * (lanes.load_j(n + node_pull + 4 * k) + p * lanes.load_j(n + node_slope_gradient + 4 * k) -
+                     boost * lanes.load_j(n + node_drag + 4 * k));
       }
     });
     const Real scale =

@@ -12,17 +12,20 @@ namespace gdesp::coupling {
 
 // Rows of a record of grains (four floats each), as the passes leave them.
 enum GrainRow { row_x = 0, row_y = 4, row_z = 8, row_volume = 12, row_force = 16, row_offset = 28 };
-// Rows of the water's own: u = volume over the room that walls leave (m3), pressure (Pa), 1/that room.
+// Rows of the water's own: volume (m3), pressure (Pa), 1/(room that walls leave).
 constexpr Index water_rows = 12, water_boost = 8;
 // Rows of the sums at grains.
-constexpr Index sum_rows = 48;
+constexpr Index sum_rows = 68;
 enum SumRow {
   sum_water = 0,
-  sum_porosity = 4,
+  sum_boosted = 4,
   sum_velocity = 8,
   sum_pressure = 20,
   sum_water_gradient = 24,
-  sum_pressure_gradient = 36
+  sum_pressure_gradient = 36,
+  sum_wall = 48,
+  sum_wall_gradient = 52,
+  sum_solid = 64
 };
 
 GDESP_HD inline float grain_volume(float R, bool discs) {
@@ -71,7 +74,7 @@ struct PackWater {
     float* r = water + water_rows * static_cast<std::int64_t>(s / exec::cluster_size) + s % exec::cluster_size;
     const bool real_particle = id[s] != no_particle;
     const float ratio = 1.0f + density[s], eps = porosity[s];
-    r[0] = real_particle ? V0 * mass_share[s] / sph::cavitated_density(ratio, eps, cavitates) * r[8] : 0.0f;
+    r[0] = real_particle ? V0 * mass_share[s] / sph::cavitated_density(ratio, eps, cavitates) : 0.0f;
     r[4] =
         real_particle ? stiffness * sph::cavitated_pressure(sph::tait_pressure(ratio / eps - 1.0f), cavitates) : 0.0f;
   }
@@ -85,16 +88,28 @@ struct RoomToBoost {
   }
 };
 
-// V to V w/N.
+// V to V w/n.
 struct Deposit {
   const float* sums;
   float* record;
+  float wall_factor;
   bool all;  // whatever touches water, before it is known how much room the water takes
   GDESP_HD void operator()(Index s) const {
     const std::int64_t c = s / exec::cluster_size, lane = s % exec::cluster_size;
     float* r = record + record_offset(static_cast<Index>(c)) + lane;
-    const float N = sums[sum_rows * c + lane + sum_water];
-    r[row_volume] = all ? (N > 0.02f ? r[row_volume] : 0.0f) : deposited_volume(r[row_volume], N);
+    const float n = sums[sum_rows * c + lane + sum_water],
+                room = open_share(wall_factor * sums[sum_rows * c + lane + sum_wall]);
+    r[row_volume] = all ? (n > 0.02f ? r[row_volume] : 0.0f) : deposited_volume(r[row_volume], n, room);
+  }
+};
+
+// V w/n back to V w, for the porosity that drag sees.
+struct WholeVolume {
+  const float* sums;
+  float* record;
+  GDESP_HD void operator()(Index s) const {
+    const std::int64_t c = s / exec::cluster_size, lane = s % exec::cluster_size;
+    record[record_offset(static_cast<Index>(c)) + lane + row_volume] *= sums[sum_rows * c + lane + sum_water];
   }
 };
 
@@ -123,7 +138,7 @@ struct ForcesOnGrains {
   const float* real_diameter;  // per group; null: their own
   Drag law;
   bool discs;
-  float density, viscosity, added_mass_factor;
+  float density, viscosity, added_mass_factor, wall_factor;
   Vec3f gravity;
   float* porosity;
   float* drag_coefficient;
@@ -141,14 +156,16 @@ struct ForcesOnGrains {
     drag_coefficient[s] = fluid_mass[s] = added_mass[s] = 0.0f;
     porosity[s] = 1.0f;
     fluid_velocity[s] = fluid_acceleration[s] = other_force[s] = {};
-    const float N = q[sum_water], wet = immersion(N);
+    const float n = q[sum_water], room = open_share(wall_factor * q[sum_wall]), N = n / room, wet = immersion(N);
     if (id[s] == no_particle || wet <= 0.0f) return;
-    const float inverse = 1.0f / N;
-    const float eps = real::min(real::max(q[sum_porosity] * inverse, porosity_floor), 1.0f);
+    const float inverse = 1.0f / q[sum_boosted];
+    const float eps = real::min(real::max(1.0f - q[sum_solid] / room, porosity_floor), 1.0f);
     const Vec3f u = vector_at(q + sum_velocity) * inverse;
     const float R = grain[s].radius, V = grain_volume(R, discs);
     const Buoyancy push =
-        buoyancy(V, {N, q[sum_pressure], vector_at(q + sum_water_gradient), vector_at(q + sum_pressure_gradient)},
+        buoyancy(V,
+                 {n, q[sum_pressure], vector_at(q + sum_water_gradient), vector_at(q + sum_pressure_gradient), room,
+                  vector_at(q + sum_wall_gradient) * wall_factor},
                  gravity * density);
     const float given = real_diameter ? real_diameter[group[s]] : 0.0f;
     const Vec3f v{grain[s].vx, grain[s].vy, grain[s].vz};
@@ -186,7 +203,7 @@ struct PackReaction {
     const std::int64_t c = s / exec::cluster_size, lane = s % exec::cluster_size;
     float* r = record + record_offset(static_cast<Index>(c)) + lane;
     if (id[s] == no_particle || r[row_volume] <= 0.0f) return;  // dry
-    const float N = sums[sum_rows * c + lane + sum_water];
+    const float N = sums[sum_rows * c + lane + sum_boosted];
     const Vec3f change = velocity[s] - velocity_before[s];
     const Vec3f F = fluid_acceleration[s] * (added_mass[s] * kick_share) +
                     static_cast<Vec3f>(drag_impulse[s] * static_cast<double>(inverse_dt)) -

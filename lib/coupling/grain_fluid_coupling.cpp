@@ -12,6 +12,8 @@ GrainFluidCoupling<Exec>::GrainFluidCoupling(const Exec& exec, const Domain& dom
       velocity_before_(exec), porosity_(exec), drag_coefficient_(exec), fluid_mass_(exec), added_mass_(exec),
       fluid_velocity_(exec), fluid_acceleration_(exec), other_force_(exec), reaction_(exec) {
   real_diameter_.assign(law.real_diameter);
+  const double sigma = law.smoothing_length * std::sqrt(law.dimensions == 2 ? 5.0 / 18.0 : 4.0 / 15.0);
+  wall_factor_ = static_cast<float>(1.0 / std::erf(3.0 * law.dp / (std::sqrt(2.0) * sigma)));
 }
 
 template <class Exec>
@@ -26,7 +28,8 @@ void GrainFluidCoupling<Exec>::rebuild(const dem::GrainSystem<Exec>& grains, con
   const auto water_clusters = static_cast<std::size_t>(fluid.set().clusters());
   grain_slots_ = grains.slots();
   record_.resize_discard(n * 8);
-  sums_.resize_discard(n * 12);
+  sums_.resize_discard(n * sum_rows / exec::cluster_size);
+
   for (auto* array : {&porosity_, &drag_coefficient_, &fluid_mass_, &added_mass_}) array->resize_discard(n);
   for (auto* array : {&velocity_before_, &fluid_velocity_, &fluid_acceleration_, &other_force_})
     array->resize_discard(n);
@@ -94,18 +97,22 @@ void GrainFluidCoupling<Exec>::find_porosity(sph::FluidSystem<Exec>& fluid, Star
       exec_, "coupling::room", water_clusters,
       ReadAtPlaces{nodes_at_water(fluid), sums + node_wall, nullptr, 0, water_.data() + water_boost, water_rows});
   exec::parallel_for(exec_, "coupling::room_finish", fluid.slots(), RoomToBoost{water_.data()});
+  exec::pair_pass(exec_, "coupling::room", grain_slots_ / exec::cluster_size,
+                  ReadAtPlaces{nodes_at_grains(), sums + node_wall, nullptr, 0, sums_.data() + sum_wall, sum_rows});
   pack_water(fluid);
   exec::pair_pass(exec_, "coupling::wet", nodes,
                   AddAtNodes{water_at_nodes(fluid), water_.data(), water_rows, 1.0f, sums + node_water});
   exec::pair_pass(exec_, "coupling::wet", grain_slots_ / exec::cluster_size,
                   ReadAtPlaces{nodes_at_grains(), sums + node_water, nullptr, 0, sums_.data() + sum_water, sum_rows});
   exec::parallel_for(exec_, "coupling::deposit", grain_slots_,
-                     Deposit{sums_.data(), record_.data(), start == Start::guess});
+                     Deposit{sums_.data(), record_.data(), wall_factor_, start == Start::guess});
   exec::pair_pass(exec_, "coupling::porosity", nodes,
                   AddAtNodes{grains_at_nodes(), record_.data() + row_volume, record_size, 1.0f, sums + node_solid});
   exec::pair_pass(exec_, "coupling::porosity", water_clusters,
-                  ReadAtPlaces{nodes_at_water(fluid), sums + node_solid, water_.data() + water_boost, water_rows,
-                               reaction_.data(), 12});
+                  ReadAtPlaces{nodes_at_water(fluid), sums + node_solid, nullptr, 0, reaction_.data(), 12});
+  exec::parallel_for(exec_, "coupling::whole", grain_slots_, WholeVolume{sums_.data(), record_.data()});
+  exec::pair_pass(exec_, "coupling::solid", nodes,
+                  AddAtNodes{grains_at_nodes(), record_.data() + row_volume, record_size, 1.0f, sums + node_solid});
   exec::parallel_for(exec_, "coupling::porosity_finish", fluid.slots(),
                      SolidToPorosity{reaction_.data(), fluid.densities(), fluid.porosity(), start == Start::settle});
 }
@@ -133,17 +140,30 @@ void GrainFluidCoupling<Exec>::gather_forces(dem::GrainSystem<Exec>& grains, sph
   const Index nodes = nodes_.clusters();
   float* sums = node_sums_.data();
   exec::pair_pass(exec_, "coupling::water_at_nodes", nodes,
-                  WaterAtNodes{water_at_nodes(fluid), rho_g, water_.data(), fluid.porosity(), sums});
+                  WaterAtNodes{water_at_nodes(fluid), rho_g, water_.data(), sums});
   exec::pair_pass(exec_, "coupling::gather", grains.set().clusters(),
                   GatherAtGrains{nodes_at_grains(), rho_g, sums, sums_.data()});
-  exec::parallel_for(
-      exec_, "coupling::forces", grains.slots(),
-      ForcesOnGrains{grains.records(), grains.ids(), grains.groups(), record_.data(), sums_.data(),
-                     real_diameter_.empty() ? nullptr : real_diameter_.data(), law_.drag, law_.dimensions == 2,
-                     static_cast<float>(law_.fluid_density), static_cast<float>(law_.dynamic_viscosity),
-                     static_cast<float>(law_.added_mass), static_cast<Vec3f>(law_.gravity), porosity_.data(),
-                     drag_coefficient_.data(), fluid_mass_.data(), added_mass_.data(), fluid_velocity_.data(),
-                     fluid_acceleration_.data(), other_force_.data()});
+  exec::parallel_for(exec_, "coupling::forces", grains.slots(),
+                     ForcesOnGrains{grains.records(),
+                                    grains.ids(),
+                                    grains.groups(),
+                                    record_.data(),
+                                    sums_.data(),
+                                    real_diameter_.empty() ? nullptr : real_diameter_.data(),
+                                    law_.drag,
+                                    law_.dimensions == 2,
+                                    static_cast<float>(law_.fluid_density),
+                                    static_cast<float>(law_.dynamic_viscosity),
+                                    static_cast<float>(law_.added_mass),
+                                    wall_factor_,
+                                    static_cast<Vec3f>(law_.gravity),
+                                    porosity_.data(),
+                                    drag_coefficient_.data(),
+                                    fluid_mass_.data(),
+                                    added_mass_.data(),
+                                    fluid_velocity_.data(),
+                                    fluid_acceleration_.data(),
+                                    other_force_.data()});
   const double c = fluid.parameters().sound_speed;
   exec::pair_pass(exec_, "coupling::mixture", nodes, MixtureAtNodes{grains_at_nodes(), rho_g, sums});
   exec::pair_pass(

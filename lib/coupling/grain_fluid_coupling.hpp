@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Grains and water: porosity, what the water does to the grains, and its exact reaction.
 // @eq coupling.porosity
-//   eps_a = 1 - sum_i V_i (w_i/N_i) W_ai(h_c) / (1 - S_wall,a), not below least_porosity; at a grain
-//   eps_i = sum_a eps_a u_a W_ia / N_i, v_i = sum_a v_a u_a W_ia / N_i, N_i = sum_a u_a W_ia, u_a = V_a/(1 - S_wall,a).
+//   eps_a = 1 - sum_i V_i (w_i/n_i) W_ai(h_c), n_i = sum_a V_a W_ia, not below least_porosity; what drag sees at a grain:
+//   eps_i = 1 - sum_j V_j w_j W_ij/(1 - S_i), v_i = sum_a u_a v_a W_ia / N_i, N_i = sum_a u_a W_ia, u_a = V_a/(1 - S_a).
 //   V_a: volume of mixture of fluid particle a (mass over superficial density) [m3]; V_i: volume of the grain [m3]; h_c:
 //   coupling length, at least two grain diameters [m], W: coupling.averaging; w_i: immersion (coupling.buoyancy), a dry grain takes no room in the
-//   water; S_wall,a = sum_w V_w W_aw: beside a wall half of the grains are missing, and half of the room. In the deep N = 1.
+//   water. So each grain's volume is taken from the water around it, all of it beside a wall too, where n_i is small.
 //   Source: eqs 12, 13, 18 of the paper as meant (physics errata); Robinson, Ramaioli, Luding (2014), eqs 10-14,
 //   doi:10.1016/j.ijmultiphaseflow.2013.11.003; walls and immersion: own.
 // @eq coupling.reaction
@@ -97,11 +97,12 @@ class GrainFluidCoupling {
   AveragingNodes<Exec> nodes_;
   ClusterList<Exec> node_grain_, node_fluid_, node_wall_, grain_node_, fluid_node_;
   Index grain_slots_ = 0;
+  float wall_factor_;             ///< of the wall's share: three layers of particles stand for a wall without end
   Array<float, Exec> node_sums_;  ///< rows of coupling_passes.hpp, per cluster of nodes
   Array<float, Exec> real_diameter_;
   Array<float, Exec> record_;           ///< x y z V w/N | D/N (3) and offset (coupling.buoyancy), 4 each, per cluster
-  Array<float, Exec> sums_;             ///< 12 rows of 4 per cluster, as gathered
-  Array<float, Exec> water_;            ///< u (m3), pressure (Pa), 1/(1 - S_wall) of the water, 4 each, per cluster
+  Array<float, Exec> sums_;             ///< rows of coupling_slots.hpp, per cluster
+  Array<float, Exec> water_;            ///< volume (m3), pressure (Pa), 1/(1 - S) of the water, 4 each, per cluster
   Array<Vec3f, Exec> velocity_before_;  ///< m/s, when placed
   Array<float, Exec> porosity_, drag_coefficient_, fluid_mass_, added_mass_;
   Array<Vec3f, Exec> fluid_velocity_, fluid_acceleration_, other_force_;

@@ -22,9 +22,10 @@ struct FluidPass {
   const float* walls;
   const float* wall_friction;
   const float* mass_share;
+  const float* porosity;      // null: 1
   const float* own_pressure;  // null: A of the record
   const float* wall_ghost;    // null: no no-slip walls
-  const float* porosity;      // null: 1
+  bool extrapolated_walls;
   float* rate;
   bool trims;
   ClusterTrim fluid_trim, wall_trim;
@@ -73,7 +74,7 @@ struct FluidPass {
       const float* vj = wall_ghost ? wall_ghost + 16 * static_cast<std::int64_t>(j) : rj + row_vx;
       add_cluster<true>(lanes, i, rj, vj, lanes.load_j(wall_friction + 4 * static_cast<std::int64_t>(j)), shift, rates);
     });
-    if (WithContinuity && porosity) {  // walls count 2 - eps times
+    if (WithContinuity && porosity && extrapolated_walls) {  // walls count 2 - eps times
       const Real solid = Real(1.0f) - lanes.load_i(porosity + 4 * static_cast<std::int64_t>(c));
       rates.compression += solid * (rates.compression - between_water);
     }
@@ -87,7 +88,10 @@ struct FluidPass {
       lanes.store_sum_i(out + 8, rates.az * scale);
     }
     if constexpr (WithContinuity) {
-      lanes.store_sum_i(out + 12, rates.compression / specific_volume + Real(diffusion) * rates.diffusion);
+      // Diffusion acts on the true density, the rate is that of the superficial one.
+      Real diffused = Real(diffusion) * rates.diffusion;
+      if (porosity) diffused = diffused * lanes.load_i(porosity + 4 * static_cast<std::int64_t>(c));
+      lanes.store_sum_i(out + 12, rates.compression / specific_volume + diffused);
     }
   }
 };
@@ -354,18 +358,17 @@ void FluidSystem<Exec>::run_fluid_pass_kind(const char* name) {
   const auto cutoff = static_cast<float>(2.0 * p.h + trim_skin_);
   const bool trims = M && trims_next_;
   if (trims) trims_next_ = false;
-  exec::pair_pass(exec_, name, awake_clusters(),
-                  chosen_clusters(awake_list(), FluidPass<M, C, K>{
-                                                    pair_law(), static_cast<float>(p.sound_speed * p.sound_speed),
-                                                    static_cast<float>(2.0 * p.density_diffusion * p.h * p.sound_speed),
-                                                    fluid_fluid_.view(), fluid_wall_.view(), record_.data(),
-                                                    wall_record_.data(), wall_friction_.data(), mass_share_.data(),
-                                                    M && !C && p.tensile_control ? own_pressure_.data() : nullptr,
-                                                    M && !C && no_slip_ ? wall_ghost_.data() : nullptr,
-                                                    porous_ && p.extrapolated_walls ? porosity_.data() : nullptr,
-                                                    rate_.data(),
-                                                    trims, fluid_fluid_.trim(record_.data(), record_.data(), cutoff),
-                                                    fluid_wall_.trim(record_.data(), wall_record_.data(), cutoff)}));
+  exec::pair_pass(
+      exec_, name, awake_clusters(),
+      chosen_clusters(awake_list(), FluidPass<M, C, K>{
+                                        pair_law(), static_cast<float>(p.sound_speed * p.sound_speed),
+                                        static_cast<float>(2.0 * p.density_diffusion * p.h * p.sound_speed),
+                                        fluid_fluid_.view(), fluid_wall_.view(), record_.data(), wall_record_.data(),
+                                        wall_friction_.data(), mass_share_.data(), porous_ ? porosity_.data() : nullptr,
+                                        M && !C && p.tensile_control ? own_pressure_.data() : nullptr,
+                                        M && !C && no_slip_ ? wall_ghost_.data() : nullptr, p.extrapolated_walls,
+                                        rate_.data(), trims, fluid_fluid_.trim(record_.data(), record_.data(), cutoff),
+                                        fluid_wall_.trim(record_.data(), wall_record_.data(), cutoff)}));
 }
 
 template <class Exec>

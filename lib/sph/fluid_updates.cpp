@@ -243,7 +243,8 @@ RecordPacker FluidSystem<Exec>::packer() {
           porous_ ? porosity_.data() : nullptr,
           mass_share_.data(),
           parameters_.cavitates,
-          record_.data()};
+          record_.data(),
+          false};
 }
 
 template <class Exec>
@@ -265,10 +266,12 @@ void FluidSystem<Exec>::pack_all() {
 
 template <class Exec>
 void FluidSystem<Exec>::kick_drift(float dt, float dt_position, float fastest) {
+  RecordPacker packing = packer();
+  packing.keeps_pressure = porous_ && !parameters_.tensile_control;  // of the mixture: for the density diffusion
   exec::parallel_for(
       exec_, "sph::kick_drift", awake_slots(),
       chosen_slots(awake_list(),
-                   KickDrift{state_view(), packer(), dt, dt_position, guarded_ ? near_wall_.data() : nullptr,
+                   KickDrift{state_view(), packing, dt, dt_position, guarded_ ? near_wall_.data() : nullptr,
                              static_cast<float>(parameters_.sound_speed), static_cast<float>(parameters_.dp),
                              parameters_.shifting > 0.0 ? spacing_.data() : nullptr, near_surface_.data(),
                              static_cast<float>(parameters_.shifting * parameters_.h), fastest}));

@@ -18,6 +18,7 @@ struct RecordPacker {
   const float* mass_share;
   bool cavitates;
   float* record;
+  bool keeps_pressure;  // that of the record stays
 
   GDESP_HD void operator()(Index slot, const FixedPosition& p, const Vec3f& v, float D) const {
     const Index c = slot / exec::cluster_size;
@@ -40,7 +41,7 @@ struct RecordPacker {
     r[16] = v.x;
     r[20] = v.y;
     r[24] = v.z;
-    r[28] = paper_form ? A / (ratio * ratio) : A;
+    if (!keeps_pressure) r[28] = paper_form ? A / (ratio * ratio) : A;
   }
 };
 

@@ -22,7 +22,9 @@
 //   at 1, as without grains, it works on water in pores without end (docs/decisions/0048).
 // @eq sph.density-diffusion
 //   delta h c sum_j 2 (rho_j - rho_i - rho^H_ij) (r_ji . grad_i W)/r^2 V_j, rho^H_ij = rho0 g.(r_j - r_i)/c^2, so that
-//   hydrostatics stay still; a rate of density [kg/(m3 s)]. delta [1]; h [m]; c [m/s]. Acts on the true density (through A). Fluid pairs only.
+//   hydrostatics stay still; a rate of density [kg/(m3 s)]. delta [1]; h [m]; c [m/s]. Acts on the true density (through A), so
+//   times eps_i for the superficial one; between grains rho is that of the mixture pressure, which the momentum sees: diffusion that
+//   evens out another pressure feeds energy into beds at rest (docs/decisions/0043). Fluid pairs only.
 //   Source: Fourtakas et al. (2019), Comput. Fluids 190, 346, doi:10.1016/j.compfluid.2019.06.009.
 #pragma once
 

@@ -31,6 +31,18 @@ inline void add_box(TriangleTable& table, std::int32_t body, const Vec3d& low, c
   add_rectangle(table, at(1, 0, 0), at(1, 1, 0), at(1, 1, 1), at(1, 0, 1), body);
 }
 
+/// A tank, seen from inside, open at the top.
+inline void add_tank(TriangleTable& table, const Vec3d& low, const Vec3d& high) {
+  const auto at = [&](int i, int j, int k) {
+    return Vec3d{i ? high.x : low.x, j ? high.y : low.y, k ? high.z : low.z};
+  };
+  add_rectangle(table, at(0, 0, 0), at(1, 0, 0), at(1, 1, 0), at(0, 1, 0));
+  add_rectangle(table, at(0, 0, 0), at(0, 1, 0), at(0, 1, 1), at(0, 0, 1));
+  add_rectangle(table, at(1, 0, 0), at(1, 0, 1), at(1, 1, 1), at(1, 1, 0));
+  add_rectangle(table, at(0, 0, 0), at(0, 0, 1), at(1, 0, 1), at(1, 0, 0));
+  add_rectangle(table, at(0, 1, 0), at(1, 1, 0), at(1, 1, 1), at(0, 1, 1));
+}
+
 /// A free box of given density; in two dimensions the y extent must be 1 m (mass per metre).
 inline Body box_body(const Vec3d& lo, const Vec3d& hi, double density) {
   Body body;

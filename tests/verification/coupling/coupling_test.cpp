@@ -7,9 +7,11 @@
 // @eq coupling.added-mass
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 #include <tuple>
 
+#include "support/surfaces.hpp"
 #include "support/tank.hpp"
 
 namespace gdesp {
@@ -225,6 +227,43 @@ TEST(Coupling, pores_hold_the_water_that_grains_leave) {
           << dimensions << " " << across;
     }
   }
+}
+
+// A bed of grains lies still in still water, in a tank whose edges it fills. It did not (0.1 m/s and more, for ever) while the density
+// diffusion or the walls saw another pressure than the momentum, or grains beside walls counted as half dry (docs/decisions/0043).
+TEST(Coupling, a_bed_under_still_water_comes_to_rest) {
+  const double dp = 0.01, d = 0.01, depth = 0.12;
+  const Vec3d size{0.12, 0.08, 0.14};
+  SimulationInput input = test::tank_input(size, depth, dp, 3);
+  input.fluid_parameters.h = 1.5 * dp;
+  input.fluid_parameters.artificial_viscosity = 0.02;
+  input.fluid_parameters.density_diffusion = 0.1;
+  test::fill_block(input.fluid, {0, 0, 0}, {size.x, size.y, depth}, dp, false);
+  test::rest_rows(input, depth);
+  for (const Vec3d& r : input.boundary.position) {
+    const Vec3d surface{std::clamp(r.x, 0.0, size.x), std::clamp(r.y, 0.0, size.y), std::max(r.z, 0.0)};
+    const double deep = norm(surface - r);
+    input.boundary.normal.push_back(static_cast<Vec3f>((surface - r) * (1.0 / deep)));
+    input.boundary.depth.push_back(static_cast<float>(deep));
+  }
+  for (int z = 0; z < 6; ++z)
+    for (int y = 0; y < 7 - z % 2; ++y)
+      for (int x = 0; x < 11 - z % 2; ++x) {
+        const double odd = 0.5 * (z % 2);
+        input.grains.position.push_back(
+            {(x + odd + 0.5) * size.x / 11, (y + odd + 0.5) * size.y / 7, (0.5 + 0.8 * z) * d});
+        input.grains.diameter.push_back(static_cast<float>(d));
+        input.grains.density.push_back(2650.0f);
+      }
+  test::add_tank(input.walls, {0, 0, 0}, size);
+  input.contact.youngs_modulus = 1e6;
+  auto simulation = make_simulation(input, "cpu");
+  simulation->advance_to(1.0);
+  const Diagnostics e = simulation->diagnostics();
+  const double wave = std::sqrt(9.81 * depth);
+  EXPECT_LT(std::sqrt(2.0 * e.fluid_kinetic / e.fluid_mass), 0.02 * wave);  // 0.9 %; before 10 %
+  EXPECT_LT(std::sqrt(2.0 * e.grain_kinetic / e.grain_mass), 0.002 * wave);
+  EXPECT_EQ(e.lost_fluid, 0);
 }
 
 }  // namespace
