@@ -81,10 +81,11 @@ struct PackWater {
 };
 
 struct RoomToBoost {
+  float wall_factor;
   float* water;
   GDESP_HD void operator()(Index s) const {
     float* r = water + water_rows * static_cast<std::int64_t>(s / exec::cluster_size) + s % exec::cluster_size;
-    r[8] = 1.0f / open_share(r[8]);
+    r[8] = 1.0f / open_share(wall_factor * r[8]);
   }
 };
 
@@ -159,7 +160,7 @@ struct ForcesOnGrains {
     const float n = q[sum_water], room = open_share(wall_factor * q[sum_wall]), N = n / room, wet = immersion(N);
     if (id[s] == no_particle || wet <= 0.0f) return;
     const float inverse = 1.0f / q[sum_boosted];
-    const float eps = real::min(real::max(1.0f - q[sum_solid] / room, porosity_floor), 1.0f);
+    const float eps = real::min(real::max(1.0f - q[sum_solid] / open_share(q[sum_wall]), porosity_floor), 1.0f);
     const Vec3f u = vector_at(q + sum_velocity) * inverse;
     const float R = grain[s].radius, V = grain_volume(R, discs);
     const Buoyancy push =

@@ -96,7 +96,7 @@ void GrainFluidCoupling<Exec>::find_porosity(sph::FluidSystem<Exec>& fluid, Star
   exec::pair_pass(
       exec_, "coupling::room", water_clusters,
       ReadAtPlaces{nodes_at_water(fluid), sums + node_wall, nullptr, 0, water_.data() + water_boost, water_rows});
-  exec::parallel_for(exec_, "coupling::room_finish", fluid.slots(), RoomToBoost{water_.data()});
+  exec::parallel_for(exec_, "coupling::room_finish", fluid.slots(), RoomToBoost{wall_factor_, water_.data()});
   exec::pair_pass(exec_, "coupling::room", grain_slots_ / exec::cluster_size,
                   ReadAtPlaces{nodes_at_grains(), sums + node_wall, nullptr, 0, sums_.data() + sum_wall, sum_rows});
   pack_water(fluid);

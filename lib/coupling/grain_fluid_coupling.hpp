@@ -2,7 +2,8 @@
 // Grains and water: porosity, what the water does to the grains, and its exact reaction.
 // @eq coupling.porosity
 //   eps_a = 1 - sum_i V_i (w_i/n_i) W_ai(h_c), n_i = sum_a V_a W_ia, not below least_porosity; what drag sees at a grain:
-//   eps_i = 1 - sum_j V_j w_j W_ij/(1 - S_i), v_i = sum_a u_a v_a W_ia / N_i, N_i = sum_a u_a W_ia, u_a = V_a/(1 - S_a).
+//   eps_i = 1 - sum_j V_j w_j W_ij/(1 - S_i), v_i = sum_a u_a v_a W_ia / N_i, N_i = sum_a u_a W_ia, u_a = V_a/(1 - S_a),
+//   S = sum_w V_w W over walls, for u_a scaled as in coupling.buoyancy.
 //   V_a: volume of mixture of fluid particle a (mass over superficial density) [m3]; V_i: volume of the grain [m3]; h_c:
 //   coupling length, at least two grain diameters [m], W: coupling.averaging; w_i: immersion (coupling.buoyancy), a dry grain takes no room in the
 //   water. So each grain's volume is taken from the water around it, all of it beside a wall too, where n_i is small.
