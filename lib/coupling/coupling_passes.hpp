@@ -16,9 +16,9 @@ enum NodeRow {
   node_boosted = 4,    // sum_a u_a S/V
   node_pressure = 8,   // sum_a V_a (P_a - rho g.(r_a - r_n)) S/V
   node_velocity = 12,  // sum_a u_a v_a S/V
-  node_drag = 12,      // then: sum_i (D_i/N_i) S/V
+  node_drag = 12,      // after the gather: sum_i (D_i/N_i) S/V
   node_wall = 24,      // sum_w V_w S/V
-  node_solid = 28,     // sum_i V_i (w/N) S/V
+  node_solid = 28,     // sum_i V_i (w/n) S/V, then sum_i V_i w S/V
   node_slope = 32,     // sum_i slope_i S/V
   node_offset = 36,    // sum_i (slope_i rho g.(r_n - r_i) - offset_i) S/V
   node_pull = 40,      // sum_i (offset_i + slope_i rho g.(r_i - r_n)) grad S/V + (slope_i rho g - force_i) S/V
