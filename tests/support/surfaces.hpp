@@ -31,16 +31,24 @@ inline void add_box(TriangleTable& table, std::int32_t body, const Vec3d& low, c
   add_rectangle(table, at(1, 0, 0), at(1, 1, 0), at(1, 1, 1), at(1, 0, 1), body);
 }
 
-/// A tank, seen from inside, open at the top.
-inline void add_tank(TriangleTable& table, const Vec3d& low, const Vec3d& high) {
-  const auto at = [&](int i, int j, int k) {
-    return Vec3d{i ? high.x : low.x, j ? high.y : low.y, k ? high.z : low.z};
-  };
-  add_rectangle(table, at(0, 0, 0), at(1, 0, 0), at(1, 1, 0), at(0, 1, 0));
-  add_rectangle(table, at(0, 0, 0), at(0, 1, 0), at(0, 1, 1), at(0, 0, 1));
-  add_rectangle(table, at(1, 0, 0), at(1, 0, 1), at(1, 1, 1), at(1, 1, 0));
-  add_rectangle(table, at(0, 0, 0), at(0, 0, 1), at(1, 0, 1), at(1, 0, 0));
-  add_rectangle(table, at(0, 1, 0), at(1, 1, 0), at(1, 1, 1), at(0, 1, 1));
+/// A closed box seen from inside.
+inline TriangleTable tank(const Vec3d& low, const Vec3d& high) {
+  TriangleTable table;
+  const Vec3d p[8] = {low,
+                      {high.x, low.y, low.z},
+                      {high.x, high.y, low.z},
+                      {low.x, high.y, low.z},
+                      {low.x, low.y, high.z},
+                      {high.x, low.y, high.z},
+                      high,
+                      {low.x, high.y, high.z}};
+  add_rectangle(table, p[0], p[1], p[2], p[3]);  // floor, upwards
+  add_rectangle(table, p[4], p[7], p[6], p[5]);  // lid
+  add_rectangle(table, p[0], p[3], p[7], p[4]);  // x low, towards +x
+  add_rectangle(table, p[1], p[5], p[6], p[2]);
+  add_rectangle(table, p[0], p[4], p[5], p[1]);  // y low
+  add_rectangle(table, p[3], p[2], p[6], p[7]);
+  return table;
 }
 
 /// A free box of given density; in two dimensions the y extent must be 1 m (mass per metre).

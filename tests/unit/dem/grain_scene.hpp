@@ -10,6 +10,7 @@
 namespace gdesp::dem::test {
 
 using gdesp::test::add_rectangle;
+using gdesp::test::tank;
 using Grains = GrainSystem<exec::OpenMP>;
 
 /// A box of space (m) without walls; blocks 64 spacings wide.
@@ -48,26 +49,6 @@ inline TriangleTable floor_mesh(double x0, double x1, double y0, double y1, doub
     }
   }
   table.body.assign(table.triangle.size(), 0);
-  return table;
-}
-
-/// A closed box seen from inside.
-inline TriangleTable tank(const Vec3d& low, const Vec3d& high) {
-  TriangleTable table;
-  const Vec3d p[8] = {low,
-                      {high.x, low.y, low.z},
-                      {high.x, high.y, low.z},
-                      {low.x, high.y, low.z},
-                      {low.x, low.y, high.z},
-                      {high.x, low.y, high.z},
-                      high,
-                      {low.x, high.y, high.z}};
-  add_rectangle(table, p[0], p[1], p[2], p[3]);  // floor, upwards
-  add_rectangle(table, p[4], p[7], p[6], p[5]);  // lid
-  add_rectangle(table, p[0], p[3], p[7], p[4]);  // x low, towards +x
-  add_rectangle(table, p[1], p[5], p[6], p[2]);
-  add_rectangle(table, p[0], p[4], p[5], p[1]);  // y low
-  add_rectangle(table, p[3], p[2], p[6], p[7]);
   return table;
 }
 

@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include "../../support/state_of.hpp"
 #include "core/error.hpp"
 #include "dem/grain_motion.hpp"
 #include "grain_scene.hpp"
-#include "support/state_of.hpp"
 
 namespace gdesp::dem::test {
 namespace {

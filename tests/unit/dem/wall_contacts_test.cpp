@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include "../../support/state_of.hpp"
 #include "grain_scene.hpp"
-#include "support/state_of.hpp"
 
 namespace gdesp::dem::test {
 namespace {

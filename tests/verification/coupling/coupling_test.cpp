@@ -255,7 +255,7 @@ TEST(Coupling, a_bed_under_still_water_comes_to_rest) {
         input.grains.diameter.push_back(static_cast<float>(d));
         input.grains.density.push_back(2650.0f);
       }
-  test::add_tank(input.walls, {0, 0, 0}, size);
+  input.walls = test::tank({0, 0, 0}, size);
   input.contact.youngs_modulus = 1e6;
   auto simulation = make_simulation(input, "cpu");
   simulation->advance_to(1.0);
