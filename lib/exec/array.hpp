@@ -81,13 +81,17 @@ class Array {
   }
   std::vector<T> to_host() const {
     std::vector<T> host(size_);
-    if (size_) detail::copy_to_host(exec_, host.data(), data_, size_ * sizeof(T));
+    copy_to_host(host.data(), 0, size_);
     return host;
+  }
+  /// `count` elements from `first` on, to memory of the host (synchronises the stream on a device).
+  void copy_to_host(T* to, std::size_t first, std::size_t count) const {
+    if (count) detail::copy_to_host(exec_, to, data_ + first, count * sizeof(T));
   }
   /// One element (synchronises the stream on a device).
   T read(std::size_t i) const {
     T value;
-    detail::copy_to_host(exec_, &value, data_ + i, sizeof(T));
+    copy_to_host(&value, i, 1);
     return value;
   }
 

@@ -37,7 +37,7 @@ class StateWriter {
       std::vector<T> block;
       for (std::size_t done = 0; done < count; done += block.size()) {
         block.resize(std::min(count - done, std::size_t{1} << 22));
-        detail::copy_to_host(Exec{}, block.data(), array.data() + done, block.size() * sizeof(T));
+        array.copy_to_host(block.data(), done, block.size());
         bytes(block.data(), block.size() * sizeof(T));
       }
     }

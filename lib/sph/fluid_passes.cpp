@@ -374,9 +374,11 @@ void FluidSystem<Exec>::run_fluid_pass_kind(const char* name) {
 template <class Exec>
 template <bool M, bool C>
 void FluidSystem<Exec>::run_fluid_pass(const char* name) {
-  if (!M || parameters_.viscosity == Viscosity::none) return run_fluid_pass_kind<M, C, Viscosity::none>(name);
-  if (parameters_.viscosity == Viscosity::morris) return run_fluid_pass_kind<M, C, Viscosity::morris>(name);
-  run_fluid_pass_kind<M, C, Viscosity::artificial>(name);
+  if constexpr (M) {
+    if (parameters_.viscosity == Viscosity::morris) return run_fluid_pass_kind<M, C, Viscosity::morris>(name);
+    if (parameters_.viscosity == Viscosity::artificial) return run_fluid_pass_kind<M, C, Viscosity::artificial>(name);
+  }
+  run_fluid_pass_kind<M, C, Viscosity::none>(name);
 }
 
 template <class Exec>

@@ -142,31 +142,39 @@ void* result_slot(const Cuda& exec, std::size_t bytes);
 
 }  // namespace detail
 
+namespace detail {
+
+/// Puts a kernel of at least `threads` threads (at least one block) behind what the stream was given before.
+template <class... Parameters, class... Arguments>
+void launch(const Cuda& exec, const char* name, void (*kernel)(Parameters...), std::int64_t threads,
+            const Arguments&... arguments) {
+  const std::int64_t blocks = threads > 0 ? (threads + block_threads - 1) / block_threads : 1;
+  cudaLaunchConfig_t config{};
+  config.gridDim.x = static_cast<unsigned>(blocks);
+  config.blockDim.x = block_threads;
+  config.stream = stream(exec);
+  check(cudaLaunchKernelEx(&config, kernel, arguments...), name);
+}
+
+}  // namespace detail
+
 template <class Body>
 void parallel_for(const Cuda& exec, const char* name, Index count, const Body& body) {
-  if (count <= 0) return;
-  const int blocks = (count + detail::block_threads - 1) / detail::block_threads;
-  detail::run_parallel_for<<<blocks, detail::block_threads, 0, detail::stream(exec)>>>(body, count);
-  check(cudaGetLastError(), name);
+  if (count > 0) detail::launch(exec, name, &detail::run_parallel_for<Body>, count, body, count);
 }
 
 template <class Body>
 void pair_pass(const Cuda& exec, const char* name, Index clusters, const Body& body) {
-  if (clusters <= 0) return;
-  const std::int64_t threads = static_cast<std::int64_t>(clusters) * 16;
-  const unsigned blocks = static_cast<unsigned>((threads + detail::block_threads - 1) / detail::block_threads);
-  detail::run_pair_pass<<<blocks, detail::block_threads, 0, detail::stream(exec)>>>(body, clusters);
-  check(cudaGetLastError(), name);
+  if (clusters > 0) {
+    detail::launch(exec, name, &detail::run_pair_pass<Body>, std::int64_t{16} * clusters, body, clusters);
+  }
 }
 
 template <class Body>
 void row_pass(const Cuda& exec, const char* name, Index rows, const Body& body, const Gate& gate, Largest* largest) {
   check(cudaMemsetAsync(largest, 0, sizeof(Largest), detail::stream(exec)), name);
-  // At least one block: a pass without rows still hands a closed gate on.
-  const std::int64_t threads = rows > 0 ? static_cast<std::int64_t>(rows) * 8 : 1;
-  const unsigned blocks = static_cast<unsigned>((threads + detail::block_threads - 1) / detail::block_threads);
-  detail::run_row_pass<<<blocks, detail::block_threads, 0, detail::stream(exec)>>>(body, rows, gate, largest);
-  check(cudaGetLastError(), name);
+  // A pass without rows has a block too: it hands a closed gate on.
+  detail::launch(exec, name, &detail::run_row_pass<Body>, std::int64_t{8} * rows, body, rows, gate, largest);
 }
 
 template <class T, class Body, class Combine>
