@@ -49,6 +49,15 @@ void refuse_host_addresses(const std::string& kernel, Argument argument) {
   refuse_host_addresses(kernel, &argument, sizeof(argument));
 }
 
+/// Lets the device fail: the allocation after `allocations` more finds no memory; after `waits` more the device is lost, and every
+/// call fails. Negative: never.
+struct Faults {
+  long allocations = -1, waits = -1;
+};
+void set_faults(const Faults& faults);
+/// Allocations that were not freed.
+std::size_t live_allocations();
+
 /// Kernels and other work done so far, and how often; for a table.
 std::vector<std::pair<std::string, long>> work_done();
 

@@ -11,11 +11,19 @@ std::unique_ptr<Simulation> make_simulation_on(const Exec& exec, const Simulatio
 
 namespace emulated {
 
-__attribute__((visibility("default"))) std::unique_ptr<Simulation> make_simulation(const SimulationInput& input) {
+#pragma GCC visibility push(default)
+
+std::unique_ptr<Simulation> make_simulation(const SimulationInput& input) {
   return make_simulation_on(exec::take_cuda_device(0), input);
 }
 
-__attribute__((visibility("default"))) std::vector<std::pair<std::string, long>> launches() { return work_done(); }
+void let_fail(long allocations, long waits) { set_faults({allocations, waits}); }
+
+std::size_t allocations() { return live_allocations(); }
+
+std::vector<std::pair<std::string, long>> launches() { return work_done(); }
+
+#pragma GCC visibility pop
 
 }  // namespace emulated
 }  // namespace gdesp

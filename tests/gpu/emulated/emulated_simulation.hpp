@@ -14,6 +14,10 @@ namespace gdesp::emulated {
 
 std::unique_ptr<Simulation> make_simulation(const SimulationInput& input);
 
+/// See Faults and live_allocations() in device.hpp.
+void let_fail(long allocations, long waits);
+std::size_t allocations();
+
 /// Bodies of kernels that have run so far, and how often each was launched.
 std::vector<std::pair<std::string, long>> launches();
 

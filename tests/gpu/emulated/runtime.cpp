@@ -75,6 +75,7 @@ class Memory {
       mprotect(block.first_page, block.pages, yes ? PROT_READ | PROT_WRITE : PROT_NONE);
   }
   bool is_open() const { return open_; }
+  std::size_t blocks() const { return blocks_.size(); }
 
  private:
   struct Block {
@@ -120,8 +121,12 @@ void need(cudaStream_t stream, const char* call) {
   if (!stream) trouble("work is given to no stream", call);
 }
 
+gdesp::emulated::Faults faults;
+bool lost = false;
+
 cudaError_t last_error = cudaSuccess;
 cudaError_t ended_with(cudaError_t code) {
+  if (lost) code = cudaErrorLaunchFailure;
   if (code != cudaSuccess) last_error = code;
   return code;
 }
@@ -139,6 +144,7 @@ struct EmulatedStream {
   std::unique_ptr<EmulatedGraph> captured;  // while a batch is captured
 
   void finish() {
+    if (lost) waiting.clear();
     if (waiting.empty()) return;
     memory().open(true);
     while (!waiting.empty()) {
@@ -165,6 +171,13 @@ void trouble(const std::string& what, const std::string& kernel) {
   std::fprintf(stderr, "emulated device: %s%s\n", what.c_str(), kernel.empty() ? "" : (" (in " + kernel + ")").c_str());
   std::_Exit(1);
 }
+
+void set_faults(const Faults& wanted) {
+  faults = wanted;
+  lost = false;
+}
+
+std::size_t live_allocations() { return memory().blocks(); }
 
 std::string kernel_name(const std::string& pretty_function) {
   const std::string mark = "Parameters = {";
@@ -210,6 +223,8 @@ const char* cudaGetErrorString(cudaError_t code) {
       return "no error";
     case cudaErrorMemoryAllocation:
       return "out of memory";
+    case cudaErrorLaunchFailure:
+      return "unspecified launch failure";
     case cudaErrorStreamCaptureUnsupported:
       return "operation not permitted when stream is capturing";
     case cudaErrorGraphExecUpdateFailure:
@@ -233,14 +248,16 @@ cudaError_t cudaSetDevice(int) {
 }
 
 cudaError_t cudaMalloc(void** data, std::size_t bytes) {
-  *data = memory().allocate(bytes);
+  const bool fails = faults.allocations == 0;
+  if (faults.allocations > 0) --faults.allocations;
+  *data = fails || lost ? nullptr : memory().allocate(bytes);
   return ended_with(*data ? cudaSuccess : cudaErrorMemoryAllocation);
 }
 // As on a device, work that was given before is done first.
 cudaError_t cudaFree(void* data) {
   for (EmulatedStream* stream : streams()) stream->finish();
   if (data && !memory().release(data)) trouble("memory is freed that was not allocated", "");
-  return cudaSuccess;
+  return ended_with(cudaSuccess);
 }
 cudaError_t cudaMemGetInfo(std::size_t* free_bytes, std::size_t* total_bytes) {
   *free_bytes = *total_bytes = std::size_t{8} << 30;
@@ -254,8 +271,10 @@ cudaError_t cudaStreamCreateWithFlags(cudaStream_t* stream, unsigned) {
 cudaError_t cudaStreamSynchronize(cudaStream_t stream) {
   need(stream, "cudaStreamSynchronize");
   if (stream->captured) return ended_with(cudaErrorStreamCaptureUnsupported);
+  lost = lost || faults.waits == 0;
+  if (faults.waits > 0) --faults.waits;
   stream->finish();
-  return cudaSuccess;
+  return ended_with(cudaSuccess);
 }
 cudaError_t emulated_give(cudaStream_t stream, const std::string& kind, std::function<void()> work) {
   need(stream, kind.c_str());
@@ -264,7 +283,7 @@ cudaError_t emulated_give(cudaStream_t stream, const std::string& kind, std::fun
   } else {
     stream->waiting.push_back({kind, std::move(work)});
   }
-  return cudaSuccess;
+  return ended_with(cudaSuccess);
 }
 cudaError_t cudaMemsetAsync(void* data, int value, std::size_t bytes, cudaStream_t stream) {
   if (bytes > 0 && !memory().within(data, bytes)) trouble("memory is filled beyond an allocation", "cudaMemsetAsync");
@@ -282,11 +301,11 @@ cudaError_t cudaMemcpyAsync(void* to, const void* from, std::size_t bytes, cudaM
 
 cudaError_t cudaStreamBeginCapture(cudaStream_t stream, cudaStreamCaptureMode) {
   stream->captured = std::make_unique<EmulatedGraph>();
-  return cudaSuccess;
+  return ended_with(cudaSuccess);
 }
 cudaError_t cudaStreamEndCapture(cudaStream_t stream, cudaGraph_t* graph) {
   *graph = stream->captured.release();
-  return cudaSuccess;
+  return ended_with(cudaSuccess);
 }
 cudaError_t cudaGraphInstantiate(cudaGraphExec_t* made, cudaGraph_t graph, unsigned long long) {
   *made = new EmulatedGraphExec{graph->work};
@@ -302,7 +321,7 @@ cudaError_t cudaGraphExecUpdate(cudaGraphExec_t made, cudaGraph_t graph, cudaGra
 }
 cudaError_t cudaGraphLaunch(cudaGraphExec_t made, cudaStream_t stream) {
   for (const Work& work : made->work) stream->waiting.push_back(work);
-  return cudaSuccess;
+  return ended_with(cudaSuccess);
 }
 cudaError_t cudaGraphDestroy(cudaGraph_t graph) {
   delete graph;
