@@ -264,7 +264,7 @@ class Report {
       else
         page.paragraph(m->summary() + ".");
     };
-    section(run_up_, "Run-up", "Run-up against time, and its maximum along the shore.");
+    section(run_up_, "Run-up", "Run-up against time, and where some is found, its maximum along the shore.");
     section(profile_, "Profiles", "Surfaces of water and slide along a section, at four times.");
     section(map_, "Maps", "Highest water level and arrival time.");
     section(gauge_, "Gauges", "Water level (and pressure) at the gauges.");

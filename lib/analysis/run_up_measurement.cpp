@@ -167,7 +167,13 @@ Panel RunUpMeasurement::along_shore() const {
 Figure RunUpMeasurement::figure() const {
   Figure figure;
   figure.panel.push_back(against_time());
-  if (info_.dimensions == 3) figure.panel.push_back(along_shore());
+  if (info_.dimensions != 3) return figure;
+  const auto& bins = profile_->bins();
+  if (std::any_of(bins.begin(), bins.end(), [](const ShoreProfile::Bin& bin) { return bin.any; })) {
+    figure.panel.push_back(along_shore());
+  } else {
+    figure.panel.back().note += "; nothing climbs the " + plain_text(regions_[profile_region_].name);
+  }
   return figure;
 }
 

@@ -13,6 +13,7 @@
 #include "analysis/gauge_measurement.hpp"
 #include "analysis/map_measurement.hpp"
 #include "analysis/profile_measurement.hpp"
+#include "analysis/run_up_measurement.hpp"
 #include "core/error.hpp"
 #include "exact_fields.hpp"
 
@@ -185,6 +186,36 @@ TEST(MapMeasurement, GroundThatIsFlatButForRoundingHasFewContours) {
   MapMeasurement m({});
   run(m, info, {block(0, 3.0, 1.0, 0.1), block(1, 3.0, 1.2, 0.1)});
   EXPECT_LT(m.figure().map.size(), 3u);
+}
+
+TEST(RunUpMeasurement, DrawsAShoreOnlyWhereSomethingClimbsIt) {
+  const double dp = 0.1;
+  RunInfo info = tank(dp);
+  info.walls.vertex = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0},
+                       {0, 2, 0}, {4, 0, 2}, {4, 2, 2}};  // a beach of 45 degrees from x = 2
+  info.walls.triangle = {{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}};
+  info.walls.body = {0, 0, 0, 0};
+  for (const auto& [name, low, high] : {std::tuple{"beach", 1002.0, 1004.0}, std::tuple{"far bank", 999.0, 1000.5}}) {
+    Region region;
+    region.name = name;
+    region.polygon = {{low, 1999}, {high, 1999}, {high, 2003}, {low, 2003}};
+    info.scene.regions.push_back(region);
+  }
+  Frame tongue;
+  tongue.fluid.position = fill({0, 0, 0}, {4, 2, 2}, dp, 3, [](const Vec3d& p) {
+    const double bed = std::max(0.0, p.x - 2.0);
+    return p.z > bed && (p.z < 1.0 || (p.x < 3.5 && p.z < bed + 0.25));
+  });
+  tongue.fluid.velocity.assign(tongue.fluid.position.size(), Vec3f{});
+  for (const auto& [region, panels] : {std::pair{"beach", 2u}, std::pair{"far bank", 1u}}) {
+    RunUpOptions options;
+    options.region = region;
+    RunUpMeasurement m(options);
+    run(m, info, {tongue});
+    EXPECT_NEAR(m.maxima()[0].height, 0.7, 2 * dp);
+    ASSERT_EQ(m.figure().panel.size(), panels) << region;
+    EXPECT_EQ(m.figure().panel[0].note.find("nothing climbs the far bank") != std::string::npos, panels == 1u);
+  }
 }
 
 TEST(Plot, WritesEachKindAndRefusesOthers) {
