@@ -28,7 +28,7 @@ constexpr double still = 1e-4;  // of the diameter, in one iteration: a free gra
 /// How far, and in which direction, a grain sticks into a triangle; the side is told by the triangle's normal where the
 /// nearest point lies inside it.
 Vec3d wall_push(const Vec3d& p, double radius, const TriangleTree& walls, std::int32_t t) {
-  TriangleFeature feature;
+  TriangleFeature feature = TriangleFeature::face;
   const Vec3d* c = walls.corners(t);
   const Vec3d away = p - closest_point(p, c[0], c[1], c[2], &feature);
   const double distance = norm(away);
