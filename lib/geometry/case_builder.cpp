@@ -53,6 +53,7 @@ FillSpace fill_space(const Layout& layout, ColumnIntervals& walls) {
   walls = static_solid(layout.parts, space.columns.grid, &space.ground);
   space.solid = unite(walls, body_solid(layout.parts, layout.scene, space.columns.grid));
   space.domain = layout.domain;
+  for (int a = 0; a < 2; ++a) space.periodic[a] = is_periodic(layout.scene, a);
   space.offset = layout.offset;
   return space;
 }
@@ -222,13 +223,11 @@ void set_start_pressure(const Layout& layout, const FillSpace& space, const std:
 void add_body(const Layout& layout, const SolidPart& part, Body body, Case& out) {
   out.bodies.push_back(std::move(body));
   const auto number = static_cast<std::int32_t>(out.bodies.size());
-  const char* const name[3] = {"x", "y", "z"};
   bool endless[3];
   for (int a = 0; a < 3; ++a) {
-    const auto& periodic = layout.scene.periodic;
     const bool spans =
         part.box && part.box->lower[a] <= layout.domain.lower[a] && part.box->upper[a] >= layout.domain.upper[a];
-    endless[a] = spans && std::find(periodic.begin(), periodic.end(), name[a]) != periodic.end();
+    endless[a] = spans && is_periodic(layout.scene, a);
   }
   add_body_layers(part, number, layout.lattice, endless, out.boundary);
   const auto base = static_cast<std::int32_t>(out.walls.vertex.size());
@@ -318,6 +317,7 @@ Case build_case(const Scene& scene, BuildReport& report, const BuildOptions& opt
   stages.begin("reading and checking geometry");
   const Layout layout = lay_out(scene, report.notes);
   refuse_slides_elsewhere(layout);
+  refuse_slides_beyond_a_period(layout);
   warn_of_measures_outside(layout, report.notes);
   out.scene = scene;
   out.offset = layout.offset;

@@ -15,10 +15,6 @@ namespace {
 
 constexpr double layer_margin = boundary_layer_count + 0.5;  // dp around the walls' surfaces
 
-bool is_periodic(const Scene& scene, const char* axis) {
-  return std::find(scene.periodic.begin(), scene.periodic.end(), axis) != scene.periodic.end();
-}
-
 bool has_tank(const SceneParts& parts) {
   return std::any_of(parts.walls.begin(), parts.walls.end(),
                      [](const WallPart& w) { return w.kind == WallPart::Kind::tank; });
@@ -64,9 +60,8 @@ Box inner_domain(const SceneParts& parts, const Scene& scene) {
 }
 
 Box outer_domain(Box box, const Scene& scene) {
-  const char* const name[3] = {"x", "y", "z"};
   for (int a = 0; a < 3; ++a) {
-    if (is_periodic(scene, name[a])) continue;
+    if (is_periodic(scene, a)) continue;
     box.lower[a] -= layer_margin * scene.dp;
     box.upper[a] += layer_margin * scene.dp;
   }
@@ -124,6 +119,10 @@ void warn_of_odd_tanks(const SceneParts& parts, const Scene& scene, Notes& notes
 }
 
 }  // namespace
+
+bool is_periodic(const Scene& scene, int axis) {
+  return std::find(scene.periodic.begin(), scene.periodic.end(), std::string(1, "xyz"[axis])) != scene.periodic.end();
+}
 
 Vec3d choose_offset(const Box& box, int dimensions) {
   const Vec3d size = extent(box);

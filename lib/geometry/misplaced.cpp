@@ -101,6 +101,20 @@ void refuse_slides_elsewhere(const Layout& layout) {
   }
 }
 
+void refuse_slides_beyond_a_period(const Layout& layout) {
+  for (std::size_t k = 0; k < layout.parts.slides.size(); ++k) {
+    const Box box = bounds(layout.parts.slides[k].mesh);
+    for (int a = 0; a < 3; ++a) {
+      const double low = layout.domain.lower[a], high = layout.domain.upper[a], near = 1e-6 * (high - low);
+      if (!is_periodic(layout.scene, a) || (box.lower[a] >= low - near && box.upper[a] <= high + near)) continue;
+      throw Error(ErrorKind::input, slide_text(layout, k) + " reaches out of the period of the domain along " +
+                                        "xyz"[a] + ", " + number(low + layout.offset[a]) + " m to " +
+                                        number(high + layout.offset[a]) +
+                                        " m (domain.periodic): cut its mesh to the period, or widen domain");
+    }
+  }
+}
+
 void check_room(const Layout& layout, std::size_t slide, double free, double whole, Notes& notes) {
   const std::string what = slide_text(layout, slide);
   const Box ground = bounds(layout.parts.terrain);

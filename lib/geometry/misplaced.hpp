@@ -19,6 +19,9 @@ void name_dry_gauges(const Layout& layout, const std::vector<Vec3d>& water, Note
 /// Throws Error(input) when a slide lies outside the terrain in plan, saying where both are: before anything is made of the scene.
 void refuse_slides_elsewhere(const Layout& layout);
 
+/// Throws Error(input) when a slide reaches out of the domain along an axis along which that repeats: it would lie in itself.
+void refuse_slides_beyond_a_period(const Layout& layout);
+
 /// A slide has `free` of its volume `whole` (m3, m2 in the plane) outside terrain, walls and bodies. Throws Error(input) when that
 /// is nothing; warns when a fiftieth or more is missing.
 void check_room(const Layout& layout, std::size_t slide, double free, double whole, Notes& notes);

@@ -177,7 +177,9 @@ class Basin {
     const int i = static_cast<int>(column % grid.nx), j = static_cast<int>(column / grid.nx);
     const int step[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     for (int d = 0; d < (s_.lattice.dimensions == 2 ? 2 : 4); ++d) {
-      const int a = i + step[d][0], b = j + step[d][1];
+      int a = i + step[d][0], b = j + step[d][1];
+      if (s_.periodic[0]) a = (a + grid.nx) % grid.nx;
+      if (s_.periodic[1]) b = (b + grid.ny) % grid.ny;
       const bool outside = a < 0 || b < 0 || a >= grid.nx || b >= grid.ny;
       if (!outside && wanted(a, b)) {
         flow_into(k, grid.index(a, b), stack);

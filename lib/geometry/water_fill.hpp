@@ -40,10 +40,11 @@ struct PorousRegion {
 struct FillSpace {
   Lattice lattice;
   LatticeColumns columns;
-  ColumnIntervals solid;       ///< walls and bodies together
-  std::vector<double> ground;  ///< m, per column; NaN: none
-  Box domain;                  ///< m
-  Vec3d offset;                ///< m, added to coordinates in messages
+  ColumnIntervals solid;              ///< walls and bodies together
+  std::vector<double> ground;         ///< m, per column; NaN: none
+  Box domain;                         ///< m
+  bool periodic[2] = {false, false};  ///< x, y: water flows out at one side of the columns and in at the other
+  Vec3d offset;                       ///< m, added to coordinates in messages
 };
 
 /// Positions (m) of one fill. Levels and meshes use the common lattice; a box has its own, fitted to its faces (spacing

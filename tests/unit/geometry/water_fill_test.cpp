@@ -175,6 +175,54 @@ TEST(WaterFill, PolygonThatCutsTheLakeIsToldAbout) {
   EXPECT_NEAR(report.fills[0].open_edge, 70.7, 8.0);  // the chord: 2 sqrt(1250) m
 }
 
+/// A valley along y, 40 m of it, its floor at z = 0 and x = 50.
+Scene valley(const Folder& folder, double dp) {
+  write_esri_ascii(field(0, -20, 1.0, 101, 81, [](double x, double) { return 0.02 * (x - 50.0) * (x - 50.0); }),
+                   folder.file("valley.asc"), 6);
+  Scene s;
+  s.dp = dp;
+  s.domain = Box{{0.0, 0.0, -10.0}, {100.0, 40.0, 60.0}};
+  s.terrain.files = {folder.file("valley.asc")};
+  FluidFill fill;
+  fill.level = 10.0;
+  s.fluid.fill = {fill};
+  return s;
+}
+
+TEST(WaterFill, WhatRepeatsHoldsItsWater) {
+  const Folder folder;
+  for (const bool repeats : {false, true}) {
+    Scene s = valley(folder, 2.0);
+    if (repeats) s.periodic = {"y"};
+    BuildReport report;
+    build_case(s, report);
+    EXPECT_EQ(report.fills[0].open_edge == 0.0, repeats);
+    EXPECT_EQ(report.notes.warnings.empty(), repeats);
+  }
+}
+
+TEST(WaterFill, SlidesStayInsideThePeriod) {
+  const Folder folder;
+  for (const double width : {40.0, 50.0}) {
+    Scene s = valley(folder, 4.0);
+    s.periodic = {"y"};
+    Slide slide;
+    slide.name = "rock";
+    slide.kind = "granular";
+    slide.shape.box = Box{{5.0, 0.0, 45.0}, {15.0, width, 55.0}};
+    slide.diameter = 4.0;
+    s.slides = {slide};
+    BuildReport report;
+    if (width <= 40.0) {
+      EXPECT_EQ(build_case(s, report).domain.upper.y - build_case(s, report).domain.lower.y, 40.0);
+    } else {
+      const std::string text = input_error([&] { build_case(s, report); });
+      EXPECT_MENTIONS(text, "slide \"rock\"");
+      EXPECT_MENTIONS(text, "out of the period of the domain along y, 0 m to 40 m");
+    }
+  }
+}
+
 TEST(WaterFill, ErrorsNameTheKeyAndTheGround) {
   const Folder folder;
   Scene s = bowls(folder, 2.0);
