@@ -130,9 +130,9 @@ class Report {
     if (mach > 0.2)
       warnings_.push_back("The flow reached Mach " + rounded(mach, 3) +
                           ", above 0.2: the water behaves compressibly; raise numerics.sound_speed.");
-    if (overlap > 0.01)
+    if (overlap > 0.05)
       warnings_.push_back("Grains overlapped by up to " + rounded(100 * overlap, 3) +
-                          " % of a diameter, above 1 %: contacts are too soft for the load.");
+                          " % of a diameter, above 5 %: contacts are too soft for the load (contact.youngs_modulus).");
     if (lost > 0.0) warnings_.push_back(rounded(lost, 6) + " fluid particles left the domain.");
     if (grains > 0.0) warnings_.push_back(rounded(grains, 6) + " grains left the domain.");
     if (run_up_ && run_up_->most_torn() > 0)

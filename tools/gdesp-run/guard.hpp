@@ -54,7 +54,7 @@ class Guard {
   // Warned of once past the first, stopped past the second.
   static constexpr double mach_warning = 0.2, mach_limit = 1.0;
   static constexpr double density_warning = 0.1, density_limit = 0.5;   ///< of the reference density
-  static constexpr double overlap_warning = 0.01, overlap_limit = 0.3;  ///< of a diameter
+  static constexpr double overlap_warning = 0.05, overlap_limit = 0.3;  ///< of a diameter
   static constexpr double in_wall_warning = 1.0, in_wall_limit = 2.0;   ///< of a particle spacing
   static constexpr double energy_warning = 0.05, energy_limit = 0.5;    ///< of what there was to spend
   static constexpr double far_lake_warning = 0.6;                       ///< of its depth
