@@ -112,6 +112,25 @@ __global__ void __launch_bounds__(block_threads) run_pair_pass(const Body body, 
   body(c, DeviceLanes{in_warp & 15, in_warp < 16 ? 0x0000ffffu : 0xffff0000u});
 }
 
+/// *largest = max(*largest, mine) over all threads, none of which may be negative. All blocks write to one place, one after the other:
+/// each of them asks first whether it has news, which only some tens of them have.
+__device__ inline void note_largest(const Largest& mine, Largest* largest) {
+  __shared__ float of_warps[4][block_threads / 32];
+  for (int k = 0; k < 4; ++k) {
+    float value = mine.value[k];
+    for (int step = 16; step > 0; step >>= 1) value = fmaxf(value, __shfl_xor_sync(0xffffffffu, value, step));
+    if ((threadIdx.x & 31) == 0) of_warps[k][threadIdx.x >> 5] = value;
+  }
+  __syncthreads();
+  if (threadIdx.x >= 4) return;
+  const int k = static_cast<int>(threadIdx.x);
+  float value = 0.0f;
+  for (const float of_warp : of_warps[k]) value = fmaxf(value, of_warp);
+  // Not negative, so the order of the bits is the order of the values.
+  if (value > *static_cast<const volatile float*>(&largest->value[k]))
+    atomicMax(reinterpret_cast<int*>(&largest->value[k]), __float_as_int(value));
+}
+
 template <class Body>
 __global__ void __launch_bounds__(block_threads)
     run_row_pass(const Body body, Index rows, const Gate gate, Largest* largest) {
@@ -125,12 +144,7 @@ __global__ void __launch_bounds__(block_threads)
   Largest mine;
   if (r < rows) mine = body(r, DeviceRowLanes{in_warp & 7, 0xffu << (in_warp & 24)});
   __syncwarp();
-  for (int k = 0; k < 4; ++k) {
-    float value = mine.value[k];
-    for (int step = 16; step > 0; step >>= 1) value = fmaxf(value, __shfl_xor_sync(0xffffffffu, value, step));
-    // Not negative, so the order of the bits is the order of the values.
-    if (in_warp == 0 && value > 0.0f) atomicMax(reinterpret_cast<int*>(&largest->value[k]), __float_as_int(value));
-  }
+  note_largest(mine, largest);
 }
 
 inline cudaStream_t stream(const Cuda& exec) { return static_cast<cudaStream_t>(exec.stream); }

@@ -4,10 +4,10 @@
 // - work given to a stream is done only when somebody waits for it, never before;
 // - device memory cannot be touched by the host, nor past the end of an allocation, nor after it was freed;
 // - new memory is not zero, and kernels are not given addresses of the host;
-// - the lanes of a warp run one after the other in an order that changes at random, and meet only at warp primitives;
-//   a lane that is missing there, or comes to another one, ends the program with a word;
+// - the threads of a block run one after the other in an order that changes at random, and meet only at barriers and warp
+//   primitives; one that is missing there, or comes to another one, ends the program with a word;
 // - blocks run in an order that changes at random.
-// It says nothing about speed, about memory that several warps share, or about the rounding of a GPU's own instructions.
+// It says nothing about speed or about the rounding of a GPU's own instructions.
 #pragma once
 
 #include <bit>
@@ -30,12 +30,14 @@ struct ThreadPlace {
 extern ThreadPlace place;
 inline int lane() { return static_cast<int>(place.thread.x & 31u); }
 
-/// Runs body() once for each thread of `blocks` blocks of `threads` (a multiple of 32).
+/// Runs body() once for each thread of `blocks` blocks of `threads` (a multiple of 32, at most 1024).
 void run_kernel(const std::string& name, unsigned blocks, unsigned threads, const std::function<void()>& body);
 
 enum class Meeting { sync, exchange, vote };
 /// Waits for all lanes of the mask to come here with the same mask; returns what each of the 32 lanes brought.
 const unsigned* meet(Meeting kind, unsigned mask, unsigned brought);
+/// Waits for all threads of the block.
+void meet_block();
 /// What a lane brought to a meeting; it must be one of the mask's.
 unsigned of_lane(const unsigned* all, unsigned mask, int lane);
 

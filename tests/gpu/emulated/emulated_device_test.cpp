@@ -83,6 +83,29 @@ TEST(EmulatedDevice, lanes_meet) {
   EXPECT_EQ(odd.to_host(), (std::vector<unsigned>{0xaaaa, 0xaaaa, 0xaaaa}));
 }
 
+struct Ramp {
+  Index rows;
+  template <class Lanes>
+  Largest operator()(Index r, const Lanes&) const {
+    const auto up = static_cast<float>(r), down = static_cast<float>(rows - r);
+    return {{up, down, r == 37 ? 5.0f : 0.0f, 0.0f}};
+  }
+};
+TEST(EmulatedDevice, largest_of_many_blocks_and_what_a_closed_gate_hands_on) {
+  const Index rows = 1000;
+  Array<Largest, Cuda> largest = array(std::vector<Largest>(2));
+  row_pass(device(), "ramp", rows, Ramp{rows}, Gate{}, largest.data());
+  row_pass(device(), "ramp", rows, Ramp{rows}, Gate{largest.data(), 500.0f}, largest.data() + 1);
+  for (const Largest& found : largest.to_host()) {
+    EXPECT_EQ(found.value[0], 999.0f);
+    EXPECT_EQ(found.value[1], 1000.0f);
+    EXPECT_EQ(found.value[2], 5.0f);
+    EXPECT_EQ(found.value[3], 0.0f);
+  }
+  row_pass(device(), "ramp", 10, Ramp{10}, Gate{largest.data(), 2000.0f}, largest.data() + 1);
+  EXPECT_EQ(largest.to_host()[1].value[0], 9.0f);
+}
+
 TEST(EmulatedDevice, work_is_done_when_it_is_waited_for) {
   Array<int, Cuda> out = array(std::vector<int>(10));
   const auto launches = [] {
@@ -151,6 +174,15 @@ struct HalfMeet {
 };
 TEST(EmulatedDevice, refuses_lanes_that_do_not_all_come) {
   expect_end([] { pair_pass(device(), "half", 1, HalfMeet{}); }, "wait for each other at different places");
+}
+struct HalfBarrier {
+  void operator()(Index i) const {
+    if (i < 64) __syncthreads();
+    if (i == 64) __syncwarp(1u << 1);
+  }
+};
+TEST(EmulatedDevice, refuses_threads_that_do_not_all_come) {
+  expect_end([] { parallel_for(device(), "half", 128, HalfBarrier{}); }, "is not of the mask");
 }
 TEST(EmulatedDevice, refuses_device_memory_on_the_host) {
   const Array<int, Cuda> numbers = array(std::vector<int>{1});

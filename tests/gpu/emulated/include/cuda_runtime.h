@@ -9,6 +9,7 @@
 #define __device__
 #define __host__
 #define __launch_bounds__(threads)
+#define __shared__ static  // one block runs after the other
 
 struct alignas(16) float4 {
   float x, y, z, w;
@@ -90,6 +91,7 @@ inline const gdesp::emulated::Index3& threadIdx = gdesp::emulated::place.thread;
 inline const gdesp::emulated::Index3& blockIdx = gdesp::emulated::place.block;
 inline const gdesp::emulated::Index3& blockDim = gdesp::emulated::place.threads;
 
+inline void __syncthreads() { gdesp::emulated::meet_block(); }
 // Warp primitives. Each returns when all lanes of its mask have come to the same one.
 inline void __syncwarp(unsigned mask = 0xffffffffu) { gdesp::emulated::meet(gdesp::emulated::Meeting::sync, mask, 0); }
 template <class T>
