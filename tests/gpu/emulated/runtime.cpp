@@ -30,7 +30,7 @@ struct Work {
 // All device memory lies in one stretch of addresses that is used once: what was freed is never given out again.
 class Memory {
  public:
-  static constexpr std::size_t stretch = std::size_t{1} << 40;
+  static constexpr std::size_t stretch = std::size_t{1} << 36;
 
   Memory() {
     void* p = mmap(nullptr, stretch, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
