@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <ctime>
 
 #include "core/error.hpp"
@@ -91,6 +92,18 @@ SimulationInput small_mixture(const SimulationInput& scene, const SimulationInpu
   return input;
 }
 
+/// m; NaN when one of them has other particles.
+double largest_distance(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
+  if (a.size() != b.size()) return NAN;
+  double largest = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    const double distance = norm(a[k] - b[k]);
+    if (std::isnan(distance)) return NAN;
+    largest = std::max(largest, distance);
+  }
+  return largest;
+}
+
 /// s of wall time a step, of processor time (on a device: of wall time), and the steps of the grains in it.
 struct StepTime {
   double seconds = INFINITY, processor_seconds = INFINITY, grain_steps = 0.0;
@@ -164,6 +177,39 @@ double growth_of_cost(const SimulationInput& scene, const std::string& device, d
     return time_of_step(tank, device, steps).processor_seconds / work;
   };
   return cost(many) / cost(few);
+}
+
+double disagreement(const SimulationInput& scene, const std::string& device) {
+  const double dp = scene.fluid_parameters.dp;
+  const bool water = !scene.fluid.position.empty(), grains = !scene.grains.position.empty();
+  constexpr int side = 16, grains_a_side = 6;
+  SimulationInput input = water ? small_tank(scene, side) : small_lattice(scene, grains_a_side);
+  if (water && grains) input = small_mixture(scene, input, side * dp, grains_a_side);
+  try {
+    const auto here = make_simulation(input, "cpu"), there = make_simulation(input, device);
+    for (int k = 0; k < 8; ++k) {
+      here->step(1.0e30);
+      there->step(1.0e30);
+    }
+    const double of_water = largest_distance(here->fluid().position, there->fluid().position) / dp;
+    if (!grains) return of_water;
+    const double of_grains = largest_distance(here->grains().position, there->grains().position) / mean_diameter(scene);
+    return of_water > of_grains || std::isnan(of_water) ? of_water : of_grains;
+  } catch (const Error& problem) {  // a scene beyond all numbers: the run itself will say so
+    if (problem.kind() != ErrorKind::numerical) throw;
+    return 0.0;
+  }
+}
+
+void refuse_disagreement(double disagreement, const std::string& device) {
+  constexpr double allowed = 1.0e-3;
+  if (disagreement <= allowed) return;
+  char text[40];
+  std::snprintf(text, sizeof text, "%.3g", disagreement);
+  throw Error(ErrorKind::resource,
+              device +
+                  " does not compute what the processor computes: after eight steps of a small tank places differ by " +
+                  std::string(text) + " spacings (allowed: 0.001). Take --device cpu; scripts/gpu-check says more");
 }
 
 double step_seconds(const StepCosts& costs, const StepWork& work) {

@@ -25,6 +25,12 @@ StepCosts measure_step_costs(const SimulationInput& scene, const std::string& de
 /// Both on a tank with the numerics of the scene; processor time on cpu, else wall time.
 double growth_of_cost(const SimulationInput& scene, const std::string& device, double few, double many);
 
+/// How far water and grains of the small tank lie apart after eight steps on this device and on the processor, over dp and over the
+/// diameter: some 1e-6 where both compute the same. NaN when they do not even count the same particles.
+double disagreement(const SimulationInput& scene, const std::string& device);
+/// Throws Error(resource) when that is more than a thousandth: the device or its driver is not to be trusted with a run.
+void refuse_disagreement(double disagreement, const std::string& device);
+
 /// s of wall time for one step of the fluid with `grain_steps` steps of the grains.
 struct StepWork {
   double water = 0.0, walls = 0.0, grains = 0.0, grain_steps = 1.0;

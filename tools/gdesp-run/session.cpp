@@ -66,6 +66,7 @@ Session prepare(RunOptions options) {
   if (s.summary.moving_particles == 0 && std::none_of(s.input.bodies.begin(), s.input.bodies.end(), is_free))
     throw Error(ErrorKind::input,
                 options.case_path + ": has neither water nor grains nor a free body; there is nothing to simulate");
+  if (s.device != "cpu") refuse_disagreement(disagreement(s.input, s.device), s.device);
   describe_economies(s.summary, s.scene_case.scene, s.input, expected, measure_step_costs(s.input, s.device));
   exec::set_profiling(options.profile);
   s.options = std::move(options);

@@ -163,6 +163,20 @@ TEST(StepCosts, grow_little_with_the_number_of_particles) {
   EXPECT_LT(growth, 3.0);
 }
 
+TEST(DeviceCheck, one_device_agrees_with_itself_and_one_that_does_not_is_refused) {
+  EXPECT_EQ(disagreement(channel(), "cpu"), 0.0);
+  EXPECT_NO_THROW(refuse_disagreement(1.0e-5, "cuda:0"));
+  for (const double apart : {0.01, std::nan("")}) {
+    try {
+      refuse_disagreement(apart, "cuda:0");
+      ADD_FAILURE() << apart;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::resource);
+      EXPECT_NE(std::string(error.what()).find("--device cpu"), std::string::npos);
+    }
+  }
+}
+
 TEST(Targets, are_read_with_their_units) {
   EXPECT_DOUBLE_EQ(parse_accuracy("5%"), 0.05);
   EXPECT_DOUBLE_EQ(parse_accuracy("0.02"), 0.02);
