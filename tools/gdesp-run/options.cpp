@@ -52,6 +52,8 @@ po::options_description own_options() {
   o.add_options()("resume", "goes on from the newest sound checkpoint in RUN");
   o.add_options()("checkpoint-every", po::value<double>()->value_name("S")->default_value(0.0, "600"),
                   "wall time between checkpoints; an interrupted run always writes one");
+  o.add_options()("log-every", po::value<int>()->value_name("STEPS")->default_value(100),
+                  "steps between lines of log.ndjson, 1 to 100: fewer show short bursts of energy");
   o.add_options()("explain",
                   "prints models, counts, limits, memory and expected wall time; runs nothing, writes nothing");
   o.add_options()("profile", "measures the loops and prints their shares");
@@ -98,6 +100,9 @@ RunOptions collect(const po::variables_map& vm) {
   if (vm.count("accuracy")) o.accuracy = parse_accuracy(vm["accuracy"].as<std::string>());
   if (vm.count("budget")) o.budget = parse_duration(vm["budget"].as<std::string>());
   o.checkpoint_every = vm["checkpoint-every"].defaulted() ? 600.0 : positive_seconds(vm, "checkpoint-every");
+  o.log_every = vm["log-every"].as<int>();
+  if (o.log_every < 1 || o.log_every > 100)
+    throw Error(ErrorKind::usage, "--log-every " + std::to_string(o.log_every) + ": steps, 1 to 100, are needed");
   o.resume = vm.count("resume") > 0;
   o.explain = vm.count("explain") > 0;
   o.profile = vm.count("profile") > 0;

@@ -20,6 +20,7 @@ struct RunOptions {
   std::vector<Override> overrides;        ///< --preset and --set, in this order
   double accuracy = 0.0, budget = 0.0;    ///< targets (target.hpp): share of the run-up, s of wall time; 0: none
   double checkpoint_every = 0.0;          ///< s of wall time; 0: only when interrupted
+  int log_every = 100;                    ///< steps between lines of the log
   bool resume = false, explain = false, profile = false, force = false;
   std::vector<std::string> arguments;  ///< as typed
 };

@@ -203,7 +203,11 @@ class Run {
       trouble = Guard::broken(simulation(), problem.what());
     }
     const std::int64_t step = simulation().step_count();
-    if (!trouble && step % steps_between_diagnostics == 0) trouble = note();
+    if (!trouble && step % steps_between_diagnostics == 0) {
+      trouble = note();
+    } else if (!trouble && step % session_.options.log_every == 0) {
+      log_.add(simulation().diagnostics());
+    }
     if (trouble) {
       go_back(*trouble);
       return false;

@@ -22,6 +22,7 @@ class Errors(run_case.RunCase):
         self.refused(2, "c.case", "--treads", "2", says=["unknown option", "did you mean --threads?"])
         self.refused(2, "c.case", "--t-end", "-1", says=["--t-end -1", "above 0"])
         self.refused(2, "c.case", "--threads", "-2", says=["--threads -2"])
+        self.refused(2, "c.case", "--log-every", "0", says=["--log-every 0", "1 to 100"])
         self.refused(2, "c.case", "--device", "gpu", says=["device 'gpu'", "cuda:N"])
         self.refused(2, "c.case", "--resume", "--force", says=["contradict"])
         self.refused(2, "c.case", "--set", "cfl", says=["KEY=VALUE"])

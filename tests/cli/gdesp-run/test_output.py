@@ -72,6 +72,17 @@ class Output(run_case.RunCase):
         self.assertEqual([r["t"] for r in records], [0, 0.02, 0.03, 0.03])
         self.assertEqual(records[-1]["run"], str(self.folder / "c.run"))
 
+    def test_lines_of_the_log(self):
+        log = lambda: [r for r in map(json.loads, (self.folder / "c.run/log.ndjson").read_text().splitlines()) if "step" in r]
+        case = self.case()
+        self.run_well(case, "--t-end", "0.03", "-q")
+        seldom = log()
+        self.run_well(case, "--t-end", "0.03", "--log-every", "5", "--force", "-q")
+        often = log()
+        self.assertEqual([r for r in often if r in seldom], seldom)
+        steps = [r["step"] for r in often]
+        self.assertLessEqual(max(b - a for a, b in zip(steps, steps[1:])), 5)
+
     def test_preset(self):
         self.run_well(self.case(), "--preset", "paper", "--t-end", "0.01", "-q")
         scene = json.loads((self.folder / "c.run/run.json").read_text())["scene"]
