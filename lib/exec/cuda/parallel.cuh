@@ -128,6 +128,7 @@ __device__ inline void note_largest(const Largest& mine, Largest* largest) {
   for (const float of_warp : of_warps[k]) value = fmaxf(value, of_warp);
   // Not negative, so the order of the bits is the order of the values.
   if (value > *static_cast<const volatile float*>(&largest->value[k]))
+    // cppcheck-suppress invalidPointerCast ; both are as IEEE 754 and two's complement have them
     atomicMax(reinterpret_cast<int*>(&largest->value[k]), __float_as_int(value));
 }
 
