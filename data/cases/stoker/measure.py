@@ -9,6 +9,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "scripts"))
 import measure_tools as tools
 
 LEFT, RIGHT, GRAVITY = 0.3, 0.1, 9.81
+EARLY, LATE = 2.5, 3.7  # s; shallow water holds within the bands from t sqrt(g/h0) = 17 on (3.0 s): README.md
 C = math.sqrt(GRAVITY * LEFT)
 
 
@@ -29,7 +30,7 @@ rows = tools.Rows()
 
 
 def surface(time):
-    rows_ = tools.analyze("profile", run, "--line", "-2.9,0,2.9,0", "--step", "0.02", "--time", str(time))
+    rows_ = tools.analyze("profile", run, "--line", "-6.5,0,6.9,0", "--step", "0.02", "--time", str(time))
     return [(row["x"], row["z_surface"]) for row in rows_ if not math.isnan(row["z_surface"])]
 
 
@@ -42,8 +43,10 @@ def bore_place(time):
     return math.nan
 
 
-rows.relative("speed of the bore, 0.7 to 1.3 s", "m/s", (bore_place(1.3) - bore_place(0.7)) / 0.6, bore, 0.05)
-points, t = surface(1.3), 1.3
+rows.relative(f"speed of the bore, {EARLY} to {LATE} s", "m/s", (bore_place(LATE) - bore_place(EARLY)) / (LATE - EARLY), bore, 0.05)
+points, t = surface(LATE), LATE
+
+
 def exact(x):
     if x <= -C * t:
         return LEFT
@@ -52,9 +55,9 @@ def exact(x):
     return h if x <= bore * t else RIGHT
 
 
-tools.picture(run, "profile", "x [m]", "depth at 1.3 s [m]", {"": points}, {"Stoker 1957": [(x, exact(x)) for x, _ in points]}, measured=False)
+tools.picture(run, "profile", "x [m]", f"depth at {LATE} s [m]", {"": points}, {"Stoker 1957": [(x, exact(x)) for x, _ in points]}, measured=False)
 plateau = [z for x, z in points if (u - math.sqrt(GRAVITY * h)) * t + 0.1 <= x <= bore * t - 0.3]
-rows.relative("depth of the plateau at 1.3 s, mean", "m", sum(plateau) / len(plateau), h, 0.05)
+rows.relative(f"depth of the plateau at {LATE} s, mean", "m", sum(plateau) / len(plateau), h, 0.05)
 errors = [(z - (2.0 * C - x / t) ** 2 / (9.0 * GRAVITY)) / LEFT for x, z in points if -0.9 * C * t <= x <= (u - math.sqrt(GRAVITY * h)) * t]
 value = tools.root_mean_square(errors)
-rows.add("rarefaction at 1.3 s, RMS / h0", "1", value, 0.0, value, 0.02)
+rows.add(f"rarefaction at {LATE} s, RMS / h0", "1", value, 0.0, value, 0.02)
