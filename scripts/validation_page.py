@@ -209,7 +209,7 @@ def budget_text(rows):
     text = ("## Budgets\n\nEnergy: the largest rise of kinetic, potential and elastic energy of water, grains and bodies above its lowest value before, over "
             "what there was to spend (kinetic and elastic at the start, potential set free so far, the weight of all over one dp); of runs in "
             "which nothing works on the particles from outside. Momentum: of runs without walls and forces. From the run's `log.ndjson`: a line every 10 steps in "
-            "rows made since 2026-11-30, 19:45 UTC ([0048](decisions/0048-walls-among-grains.md)), every 100 in older ones, which do not see short bursts.\n\n")
+            "rows of programs younger than commit 080022b ([0048](decisions/0048-walls-among-grains.md)), every 100 in older ones, which do not see short bursts.\n\n")
     for preset in sorted({key[1] for key in table}):
         energy, momentum = count(ENERGY, preset), count(MOMENTUM, preset)
         text += (f"`{preset}`: no more than 0.1 % of energy created in {sum(energy)} of {len(energy)} runs, momentum kept to 1e-5 in "
