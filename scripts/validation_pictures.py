@@ -55,7 +55,8 @@ def draw_case(case, runs, folder):
     for preset, variant, dp, run in sorted(runs, key=lambda r: r[:3]):
         for file in sorted((Path(run) / "curves").glob("*.json")):
             kept = found.setdefault(file.stem, {})
-            label = f"{variant + ', ' if variant else ''}{preset}, dp = {1000.0 * dp:g} mm"
+            spacing = f"{1000.0 * dp:g} mm" if dp < 1.0 else f"{dp:.3g} m"
+            label = f"{variant + ', ' if variant else ''}{preset}, dp = {spacing}"
             kept.setdefault((preset, variant), (label, f"{STYLES[preset]} dt {1 + variants.index(variant)}", json.loads(file.read_text())))
     folder.mkdir(parents=True, exist_ok=True)
     for name, by_run in found.items():

@@ -24,6 +24,7 @@ rows.stated("crest at the gauge, above still water", "m", crest, quoted("crest a
 rows.stated("height of the first wave at the gauge", "m", crest - trough, quoted("height of the wave at the gauge"))
 end = gauge[-1][0]
 tools.picture(run, "gauge", "t (s)", "rise at the gauge (m)", {"water": gauge},
-              {"crest of the model, as quoted": [(0.0, known["crest at the gauge"]), (end, known["crest at the gauge"])]}, measured=False)
+              {"crest of the model, as quoted": [(0.0, known["crest at the gauge"]), (end, known["crest at the gauge"])]}, measured=False,
+              key="center right")
 tools.picture(run, "run-up", "t (s)", "run-up on the headland (m)", {"water": climb},
               {"nature": [(0.0, known["run-up in nature"]), (end, known["run-up in nature"])]}, measured=False, key="bottom right")
