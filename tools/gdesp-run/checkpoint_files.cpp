@@ -184,8 +184,12 @@ Checkpoint CheckpointFiles::write(Simulation& simulation, const Guard& guard, co
   const Trailer trailer = output.finish();
   file.write(&trailer, sizeof trailer);
   file.commit();
+  // Those of later steps are of a future that the run has gone back from, or damaged: with them there, they would be taken
+  // for the newest.
+  std::size_t newer = 0;
   const std::vector<fs::path> paths = list(folder_);
-  for (std::size_t k = kept; k < paths.size(); ++k) fs::remove(paths[k], trouble);
+  for (; newer < paths.size() && paths[newer] > fs::path(checkpoint.path); ++newer) fs::remove(paths[newer], trouble);
+  for (std::size_t k = newer + kept; k < paths.size(); ++k) fs::remove(paths[k], trouble);
   return checkpoint;
 }
 

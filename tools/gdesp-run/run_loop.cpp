@@ -84,7 +84,8 @@ class Run {
         output_(open_folder(session_), [this](const FramePaths& paths) { frame_written(paths); }),
         log_(session_.options.run_folder, resumed ? resumed->step : -1, resumed ? resumed->watch.recoveries : 0),
         guard_(guard_setup(session_)), recovery_(good_states_share * available_memory("cpu")),
-        checkpoints_(session_.options.run_folder, session_.fingerprint), description_(run_description(session_)) {
+        checkpoints_(session_.options.run_folder, session_.fingerprint), start_is_out_(resumed.has_value()),
+        description_(run_description(session_)) {
     if (resumed) {
       earlier_seconds_ = saved_ = resumed->wall_seconds;
       guard_ = resumed->watch.guard;
@@ -150,7 +151,7 @@ class Run {
 
   int steps() {
     if (!recovery_.has_state()) recovery_.keep(simulation(), guard_);  // the start itself
-    while (simulation().step_count() == 0 && !put_out()) {}
+    while (!start_is_out_) start_is_out_ = put_out();
     cli::Progress progress("simulating");
     const double first = simulation().time(), end = session_.times.end;
     while (simulation().time() < end) {
@@ -377,6 +378,7 @@ class Run {
   Recovery recovery_;
   CheckpointFiles checkpoints_;
   std::optional<Checkpoint> checkpoint_;
+  bool start_is_out_;  ///< the frame of the start; a checkpoint follows it, also one of the start itself, gone back to
   ordered_json description_;
 };
 

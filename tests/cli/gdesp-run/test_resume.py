@@ -62,7 +62,7 @@ class Resume(run_case.RunCase):
         for _ in range(20):  # until there are two
             if len(states()) > 1:
                 break
-            self.strike(signal.SIGTERM, 0.06, "--resume")
+            self.strike(signal.SIGTERM, 0.06, "--resume", "--checkpoint-every", "0.005")
         if len(states()) < 2:
             self.skipTest("the run ended before its second checkpoint")
         newest = states()[-1]
@@ -72,6 +72,29 @@ class Resume(run_case.RunCase):
             _, err = self.run_well(self.name, "-o", "broken.run", "--resume", "-q")
             self.assertIn("the checkpoint before it is taken", err)
             self.assert_same_run("whole.run", "broken.run")
+
+    def test_back_at_the_start_its_frame_stays(self):
+        """A checkpoint may hold the start itself, gone back to with a higher sound speed; its frame was put out before that."""
+        told = ["--set", "numerics.sound_speed=2"]
+        self.name = self.case(dp="0.01")
+        _, err = self.run_well(self.name, "-o", "whole.run", *told)
+        self.assertIn("going back to t = 0 s", err)
+        states = lambda: sorted((self.folder / "broken.run/checkpoints").glob("*.state"))
+        start = self.folder / "broken.run/checkpoints/step_000000000000.state"
+        for _ in range(30):  # until it is killed with that checkpoint there
+            process = self.start(self.name, "-o", "broken.run", "-q", "--threads", "1", "--force", "--checkpoint-every", "1e-6", *told)
+            while process.poll() is None and not start.exists():
+                time.sleep(0.0002)
+            process.kill()
+            process.communicate(timeout=100)
+            if start.exists():
+                break
+        else:
+            self.skipTest("the checkpoint of the start was never met")
+        for newer in states()[1:]:
+            newer.unlink()
+        self.run_well("-o", "broken.run", "--resume", "-q")
+        self.assert_same_run("whole.run", "broken.run")
 
     def test_another_case_is_refused(self):
         self.begin(dp="0.01")
