@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -52,7 +53,7 @@ po::options_description own_options() {
   o.add_options()("resume", "goes on from the newest sound checkpoint in RUN");
   o.add_options()("checkpoint-every", po::value<double>()->value_name("S")->default_value(0.0, "600"),
                   "wall time between checkpoints; an interrupted run always writes one");
-  o.add_options()("log-every", po::value<int>()->value_name("STEPS")->default_value(100),
+  o.add_options()("log-every", po::value<int>()->value_name("STEPS")->default_value(steps_between_diagnostics),
                   "steps between lines of log.ndjson, 1 to 100: fewer show short bursts of energy");
   o.add_options()("explain",
                   "prints models, counts, limits, memory and expected wall time; runs nothing, writes nothing");
@@ -100,9 +101,11 @@ RunOptions collect(const po::variables_map& vm) {
   if (vm.count("accuracy")) o.accuracy = parse_accuracy(vm["accuracy"].as<std::string>());
   if (vm.count("budget")) o.budget = parse_duration(vm["budget"].as<std::string>());
   o.checkpoint_every = vm["checkpoint-every"].defaulted() ? 600.0 : positive_seconds(vm, "checkpoint-every");
-  o.log_every = vm["log-every"].as<int>();
-  if (o.log_every < 1 || o.log_every > 100)
-    throw Error(ErrorKind::usage, "--log-every " + std::to_string(o.log_every) + ": steps, 1 to 100, are needed");
+  if (!vm["log-every"].defaulted()) {
+    o.log_every = vm["log-every"].as<int>();
+    if (o.log_every < 1 || o.log_every > steps_between_diagnostics)
+      throw Error(ErrorKind::usage, "--log-every " + std::to_string(o.log_every) + ": steps, 1 to 100, are needed");
+  }
   o.resume = vm.count("resume") > 0;
   o.explain = vm.count("explain") > 0;
   o.profile = vm.count("profile") > 0;
@@ -151,6 +154,8 @@ void take_over(RunOptions& options, const nlohmann::ordered_json& earlier) {
   };
   if (!options.t_end) options.t_end = number("t_end");
   options.output_interval = number("output_interval");
+  if (const auto steps = number("log_every"); steps && options.log_every == 0)
+    options.log_every = static_cast<int>(std::clamp(*steps, 1.0, static_cast<double>(steps_between_diagnostics)));
   const auto overrides = earlier.find("overrides");
   if (!options.overrides.empty() || overrides == earlier.end() || !overrides->is_array()) return;
   for (const auto& text : *overrides)
@@ -185,6 +190,7 @@ void resolve_paths(RunOptions& options) {
   if (options.run_folder.empty()) options.run_folder = fs::path(options.case_path).stem().string() + ".run";
   options.run_folder = absolute(options.run_folder);
   if (options.resume) take_over(options, read_run_json(options.run_folder));
+  if (options.log_every == 0) options.log_every = steps_between_diagnostics;
 }
 
 }  // namespace gdesp::tool

@@ -10,6 +10,9 @@
 
 namespace gdesp::tool {
 
+/// The guard looks at the whole state so often; the log has a line at least as often.
+inline constexpr int steps_between_diagnostics = 100;
+
 struct RunOptions {
   std::string case_path;   ///< folder; "-": the next case record on standard input
   std::string run_folder;  ///< absolute; empty until the case is known
@@ -20,7 +23,7 @@ struct RunOptions {
   std::vector<Override> overrides;        ///< --preset and --set, in this order
   double accuracy = 0.0, budget = 0.0;    ///< targets (target.hpp): share of the run-up, s of wall time; 0: none
   double checkpoint_every = 0.0;          ///< s of wall time; 0: only when interrupted
-  int log_every = 100;                    ///< steps between lines of the log
+  int log_every = 0;                      ///< steps between lines of the log; 0: not said
   bool resume = false, explain = false, profile = false, force = false;
   std::vector<std::string> arguments;  ///< as typed
 };

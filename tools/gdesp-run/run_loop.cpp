@@ -24,7 +24,6 @@ namespace {
 
 using nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
-constexpr std::int64_t steps_between_diagnostics = 100;
 // Of what the machine has, for the good states in memory.
 constexpr double good_states_share = 0.3;
 
@@ -73,6 +72,7 @@ ordered_json run_description(const Session& s) {
           {"started", utc_now()},
           {"t_end", s.times.end},
           {"output_interval", s.times.interval},
+          {"log_every", s.options.log_every},
           {"scene", s.summary.json}};
 }
 

@@ -106,7 +106,7 @@ class Resume(run_case.RunCase):
 
     def test_what_the_first_run_was_told_is_taken_over(self):
         self.name = self.case(dp="0.005")
-        told = ["--t-end", "0.3", "--set", "numerics.cfl=0.3", "--set", "time.output_interval=0.1"]
+        told = ["--t-end", "0.3", "--set", "numerics.cfl=0.3", "--set", "time.output_interval=0.1", "--log-every", "7"]
         self.run_well(self.name, "-o", "whole.run", "-q", *told)
         for after in (0.2, 0.4, 0.1, 0.05):
             if self.strike(signal.SIGINT, after, "--force", *told)[0] == 130:
