@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <ctime>
 
 #include "core/error.hpp"
+#include "particles/largest_distance.hpp"
+#include "scene_summary.hpp"
 #include "simulation/simulation.hpp"
 
 namespace gdesp::tool {
@@ -90,18 +91,6 @@ SimulationInput small_mixture(const SimulationInput& scene, const SimulationInpu
   input.coupling.real_diameter.resize(std::min<std::size_t>(scene.coupling.real_diameter.size(), 1));
   add_lattice(input, scene, std::clamp(static_cast<int>(0.8 * width / mean_diameter(scene)), 1, n));
   return input;
-}
-
-/// m; NaN when one of them has other particles.
-double largest_distance(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
-  if (a.size() != b.size()) return NAN;
-  double largest = 0.0;
-  for (std::size_t k = 0; k < a.size(); ++k) {
-    const double distance = norm(a[k] - b[k]);
-    if (std::isnan(distance)) return NAN;
-    largest = std::max(largest, distance);
-  }
-  return largest;
 }
 
 /// s of wall time a step, of processor time (on a device: of wall time), and the steps of the grains in it.
@@ -204,12 +193,10 @@ double disagreement(const SimulationInput& scene, const std::string& device) {
 void refuse_disagreement(double disagreement, const std::string& device) {
   constexpr double allowed = 1.0e-3;
   if (disagreement <= allowed) return;
-  char text[40];
-  std::snprintf(text, sizeof text, "%.3g", disagreement);
-  throw Error(ErrorKind::resource,
-              device +
-                  " does not compute what the processor computes: after eight steps of a small tank places differ by " +
-                  std::string(text) + " spacings (allowed: 0.001). Take --device cpu; scripts/gpu-check says more");
+  throw Error(
+      ErrorKind::resource,
+      device + " does not compute what the processor computes: after eight steps of a small tank places differ by " +
+          number_text(disagreement, 3) + " spacings (allowed: 0.001). Take --device cpu; scripts/gpu-check says more");
 }
 
 double step_seconds(const StepCosts& costs, const StepWork& work) {

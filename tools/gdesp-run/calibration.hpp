@@ -26,7 +26,7 @@ StepCosts measure_step_costs(const SimulationInput& scene, const std::string& de
 double growth_of_cost(const SimulationInput& scene, const std::string& device, double few, double many);
 
 /// How far water and grains of the small tank lie apart after eight steps on this device and on the processor, over dp and over the
-/// diameter: some 1e-6 where both compute the same. NaN when they do not even count the same particles.
+/// diameter: some 1e-6 where both compute the same. infinite when they do not even count the same particles.
 double disagreement(const SimulationInput& scene, const std::string& device);
 /// Throws Error(resource) when that is more than a thousandth: the device or its driver is not to be trusted with a run.
 void refuse_disagreement(double disagreement, const std::string& device);

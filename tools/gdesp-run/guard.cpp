@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "scene_summary.hpp"
-
 namespace gdesp::tool {
 namespace {
 
@@ -88,8 +86,8 @@ std::string Guard::density_text(const Diagnostics& d) {
 
 std::string Guard::overlap_text(const Diagnostics& d) {
   return moment_text(d.step, d.time) + "grains overlap by " + percent(d.largest_overlap) +
-         " of their diameter (limit " + percent(overlap_limit) +
-         "), meant: below 5 % on impact, 1 % at rest: " + overlap_remedy;
+         " of their diameter (limit " + percent(overlap_limit) + "), meant: below " + percent(overlap_on_impact) +
+         " on impact, " + percent(overlap_at_rest) + " at rest: " + overlap_remedy;
 }
 
 std::string Guard::in_wall_text(const Diagnostics& d) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "scene_summary.hpp"
 #include "simulation/simulation.hpp"
 
 namespace gdesp::tool {
@@ -53,12 +54,12 @@ class Guard {
  public:
   // Warned of once past the first, stopped past the second.
   static constexpr double mach_warning = 0.2, mach_limit = 1.0;
-  static constexpr double density_warning = 0.1, density_limit = 0.5;   ///< of the reference density
-  static constexpr double overlap_warning = 0.05, overlap_limit = 0.3;  ///< of a diameter
-  static constexpr double in_wall_warning = 1.0, in_wall_limit = 2.0;   ///< of a particle spacing
-  static constexpr double energy_warning = 0.05, energy_limit = 0.5;    ///< of what there was to spend
-  static constexpr double far_lake_warning = 0.6;                       ///< of its depth
-  static constexpr double step_limit = 1.0e-3;                          ///< of the acoustic step
+  static constexpr double density_warning = 0.1, density_limit = 0.5;                ///< of the reference density
+  static constexpr double overlap_warning = overlap_on_impact, overlap_limit = 0.3;  ///< of a diameter
+  static constexpr double in_wall_warning = 1.0, in_wall_limit = 2.0;                ///< of a particle spacing
+  static constexpr double energy_warning = 0.05, energy_limit = 0.5;                 ///< of what there was to spend
+  static constexpr double far_lake_warning = 0.6;                                    ///< of its depth
+  static constexpr double step_limit = 1.0e-3;                                       ///< of the acoustic step
 
   Guard() = default;
   explicit Guard(const GuardSetup& setup) : setup_(setup), energy_(setup.spacing_energy) {}

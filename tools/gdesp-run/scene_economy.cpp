@@ -12,7 +12,6 @@ namespace gdesp::tool {
 namespace {
 
 constexpr double pi = 3.14159265358979324;
-constexpr double overlap_at_rest = 0.01, overlap_on_impact = 0.05;  // of a diameter, allowed
 constexpr double impact_share = 1.0 / 3.0;  // of the expected speed: between grains of one slide
 constexpr double packing = 0.6;
 

@@ -34,6 +34,8 @@ void check_memory(const SceneSummary& summary, const Scene& scene, const std::st
 std::string memory_text(double bytes);
 /// Up to `digits` significant digits, no trailing zeros.
 std::string number_text(double value, int digits = 4);
+/// Overlaps of grains, of a diameter, that a contact is stiff enough for.
+inline constexpr double overlap_at_rest = 0.01, overlap_on_impact = 0.05;
 /// 93784 s -> "26 h 3 min"
 std::string duration_text(double seconds);
 

@@ -155,10 +155,6 @@ void* cub_scratch(const Cuda& exec, std::size_t bytes);
 /// A small pinned and device-visible result slot.
 void* result_slot(const Cuda& exec, std::size_t bytes);
 
-}  // namespace detail
-
-namespace detail {
-
 /// Puts a kernel of at least `threads` threads (at least one block) behind what the stream was given before.
 template <class... Parameters, class... Arguments>
 void launch(const Cuda& exec, const char* name, void (*kernel)(Parameters...), std::int64_t threads,

@@ -56,11 +56,11 @@ void refuse_host_addresses(const std::string& kernel, Argument argument) {
 struct Faults {
   long allocations = -1, waits = -1;
 };
-void set_faults(const Faults& faults);
+[[gnu::visibility("default")]] void set_faults(const Faults& faults);
 /// Allocations that were not freed.
-std::size_t live_allocations();
+[[gnu::visibility("default")]] std::size_t live_allocations();
 
 /// Kernels and other work done so far, and how often; for a table.
-std::vector<std::pair<std::string, long>> work_done();
+[[gnu::visibility("default")]] std::vector<std::pair<std::string, long>> work_done();
 
 }  // namespace gdesp::emulated

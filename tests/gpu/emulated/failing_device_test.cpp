@@ -21,7 +21,7 @@ SimulationInput grains_in_water() {
 
 class FailingDevice : public testing::Test {
  protected:
-  void TearDown() override { let_fail(-1, -1); }
+  void TearDown() override { set_faults({}); }
 
   const SimulationInput input_ = grains_in_water();
 };
@@ -38,37 +38,28 @@ std::string failure(const SimulationInput& input, int steps) {
   return "";
 }
 
-TEST_F(FailingDevice, says_what_memory_it_lacks_wherever_that_happens) {
-  { make_simulation(input_)->step(1.0e3); }  // scratch that is kept is there now
-  const std::size_t before = allocations();
-  int failed = 0;
-  for (long allowed = 0; allowed < 1000; ++allowed) {
-    let_fail(allowed, -1);
-    const std::string said = failure(input_, 2);
-    let_fail(-1, -1);
-    ASSERT_EQ(allocations(), before) << "after " << allowed << " allocations";
-    if (said.empty()) break;
-    ASSERT_NE(said.find("GPU memory"), std::string::npos) << said;
-    ++failed;
+/// Lets runs fail ever later, by `step` more of what `faults` counts, until one comes through; how many failed. Each says `word`
+/// and leaves nothing allocated.
+int failures(const SimulationInput& input, long Faults::*count, long step, const char* word) {
+  { make_simulation(input)->step(1.0e3); }  // scratch that is kept is there now
+  const std::size_t before = live_allocations();
+  for (int failed = 0;; ++failed) {
+    Faults faults;
+    faults.*count = step * failed;
+    set_faults(faults);
+    const std::string said = failure(input, 2);
+    set_faults({});
+    EXPECT_EQ(live_allocations(), before) << "after " << faults.*count;
+    if (said.empty() || testing::Test::HasFailure()) return failed;
+    EXPECT_NE(said.find(word), std::string::npos) << said;
   }
-  EXPECT_GT(failed, 50);
 }
 
-TEST_F(FailingDevice, is_lost_wherever_it_waits) {
-  { make_simulation(input_)->step(1.0e3); }
-  const std::size_t before = allocations();
-  int failed = 0;
-  for (long waits = 0; waits < 10000; waits += 7) {
-    let_fail(-1, waits);
-    const std::string said = failure(input_, 2);
-    let_fail(-1, -1);
-    ASSERT_EQ(allocations(), before) << "after " << waits << " waits";
-    if (said.empty()) break;
-    ASSERT_NE(said.find("GPU"), std::string::npos) << said;
-    ++failed;
-  }
-  EXPECT_GT(failed, 10);
+TEST_F(FailingDevice, says_what_memory_it_lacks_wherever_that_happens) {
+  EXPECT_GT(failures(input_, &Faults::allocations, 1, "GPU memory"), 50);
 }
+
+TEST_F(FailingDevice, is_lost_wherever_it_waits) { EXPECT_GT(failures(input_, &Faults::waits, 7, "GPU"), 10); }
 
 TEST_F(FailingDevice, goes_on_from_the_checkpoint_before) {
   const auto unbroken = make_simulation(input_);
@@ -79,7 +70,7 @@ TEST_F(FailingDevice, goes_on_from_the_checkpoint_before) {
     const auto run = make_simulation(input_);
     for (int k = 0; k < 2; ++k) run->step(1.0e3);
     run->save(checkpoint);
-    let_fail(-1, 3);
+    set_faults({-1, 3});
     EXPECT_THROW(
         {
           for (int k = 0; k < 2; ++k) run->step(1.0e3);
@@ -88,7 +79,7 @@ TEST_F(FailingDevice, goes_on_from_the_checkpoint_before) {
     std::stringstream late;
     EXPECT_THROW(run->save(late), Error);  // nothing of a lost device is taken for a state
   }
-  let_fail(-1, -1);
+  set_faults({});
   const auto resumed = make_simulation(input_);
   resumed->load(checkpoint);
   for (int k = 0; k < 2; ++k) resumed->step(1.0e3);

@@ -12,7 +12,6 @@
 #include <fstream>
 #include <map>
 #include <memory>
-#include <sstream>
 #include <utility>
 
 #include "cuda_runtime.h"
@@ -136,9 +135,7 @@ cudaError_t ended_with(cudaError_t code) {
 struct EmulatedGraph {
   std::vector<Work> work;
 };
-struct EmulatedGraphExec {
-  std::vector<Work> work;
-};
+struct EmulatedGraphExec : EmulatedGraph {};
 struct EmulatedStream {
   std::deque<Work> waiting;
   std::unique_ptr<EmulatedGraph> captured;  // while a batch is captured
@@ -308,7 +305,7 @@ cudaError_t cudaStreamEndCapture(cudaStream_t stream, cudaGraph_t* graph) {
   return ended_with(cudaSuccess);
 }
 cudaError_t cudaGraphInstantiate(cudaGraphExec_t* made, cudaGraph_t graph, unsigned long long) {
-  *made = new EmulatedGraphExec{graph->work};
+  *made = new EmulatedGraphExec{*graph};
   return cudaSuccess;
 }
 cudaError_t cudaGraphExecUpdate(cudaGraphExec_t made, cudaGraph_t graph, cudaGraphExecUpdateResultInfo* result) {

@@ -17,6 +17,7 @@
 #include "exec/array.hpp"
 #include "exec/backend.hpp"
 #include "parity_scenes.hpp"
+#include "particles/largest_distance.hpp"
 #include "simulation/simulation.hpp"
 #if defined(GDESP_EMULATED_DEVICE)
 #include "../emulated/emulated_simulation.hpp"
@@ -71,48 +72,32 @@ class Table {
   int passed = 0, failed = 0;
 };
 
-double largest_distance(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
-  if (a.size() != b.size()) return INFINITY;
-  double largest = 0.0;
-  for (std::size_t k = 0; k < a.size(); ++k) largest = std::fmax(largest, norm(a[k] - b[k]));
-  return largest;
+std::vector<Vec3d> each(const std::vector<BodyPose>& bodies, Vec3d BodyPose::*quantity) {
+  std::vector<Vec3d> values;
+  for (const BodyPose& body : bodies) values.push_back(body.*quantity);
+  return values;
 }
-double largest_distance(const std::vector<Vec3f>& a, const std::vector<Vec3f>& b) {
-  if (a.size() != b.size()) return INFINITY;
-  double largest = 0.0;
-  for (std::size_t k = 0; k < a.size(); ++k) largest = std::fmax(largest, static_cast<double>(norm(a[k] - b[k])));
-  return largest;
-}
-double largest_distance(const std::vector<float>& a, const std::vector<float>& b) {
-  if (a.size() != b.size()) return INFINITY;
-  double largest = 0.0;
-  for (std::size_t k = 0; k < a.size(); ++k) largest = std::fmax(largest, std::fabs(static_cast<double>(a[k] - b[k])));
-  return largest;
-}
-
 double largest_distance(const std::vector<BodyPose>& a, const std::vector<BodyPose>& b, Vec3d BodyPose::*quantity) {
-  if (a.size() != b.size()) return INFINITY;
-  double largest = 0.0;
-  for (std::size_t k = 0; k < a.size(); ++k) largest = std::fmax(largest, norm(a[k].*quantity - b[k].*quantity));
-  return largest;
+  return gdesp::largest_distance(each(a, quantity), each(b, quantity));
 }
 
 void compare(const parity::Scene& scene, const State& a, const State& b, Table& table) {
   const sph::FluidParameters& p = scene.input.fluid_parameters;
   if (!a.fluid.position.empty()) {
-    table.row(scene.name, "water, place / dp", largest_distance(a.fluid.position, b.fluid.position) / p.dp,
+    table.row(scene.name, "water, place / dp", gdesp::largest_distance(a.fluid.position, b.fluid.position) / p.dp,
               place_tolerance);
-    table.row(scene.name, "water, velocity / c", largest_distance(a.fluid.velocity, b.fluid.velocity) / p.sound_speed,
-              speed_tolerance);
+    table.row(scene.name, "water, velocity / c",
+              gdesp::largest_distance(a.fluid.velocity, b.fluid.velocity) / p.sound_speed, speed_tolerance);
     table.row(scene.name, "water, density / rho0",
-              largest_distance(a.fluid.density, b.fluid.density) / p.reference_density, density_tolerance);
+              gdesp::largest_distance(a.fluid.density, b.fluid.density) / p.reference_density, density_tolerance);
   }
   if (!a.grains.position.empty()) {
     const double d = static_cast<double>(scene.smallest_diameter);
-    table.row(scene.name, "grains, place / d", largest_distance(a.grains.position, b.grains.position) / d,
+    table.row(scene.name, "grains, place / d", gdesp::largest_distance(a.grains.position, b.grains.position) / d,
               place_tolerance);
     table.row(scene.name, "grains, velocity / largest",
-              largest_distance(a.grains.velocity, b.grains.velocity) / a.sums.largest_grain_speed, speed_tolerance);
+              gdesp::largest_distance(a.grains.velocity, b.grains.velocity) / a.sums.largest_grain_speed,
+              speed_tolerance);
   }
   if (!a.bodies.empty() && !a.fluid.position.empty()) {
     table.row(scene.name, "bodies, place / dp", largest_distance(a.bodies, b.bodies, &BodyPose::centre) / p.dp,
@@ -132,10 +117,12 @@ void compare(const parity::Scene& scene, const State& a, const State& b, Table& 
 
 // Exactly: not a bit differs in what particles do. (Where a list lies in memory may differ, and does no harm.)
 double differences(const State& a, const State& b) {
-  return largest_distance(a.fluid.position, b.fluid.position) + largest_distance(a.fluid.velocity, b.fluid.velocity) +
-         largest_distance(a.fluid.density, b.fluid.density) + largest_distance(a.grains.position, b.grains.position) +
-         largest_distance(a.grains.velocity, b.grains.velocity) +
-         largest_distance(a.grains.angular_velocity, b.grains.angular_velocity) +
+  return gdesp::largest_distance(a.fluid.position, b.fluid.position) +
+         gdesp::largest_distance(a.fluid.velocity, b.fluid.velocity) +
+         gdesp::largest_distance(a.fluid.density, b.fluid.density) +
+         gdesp::largest_distance(a.grains.position, b.grains.position) +
+         gdesp::largest_distance(a.grains.velocity, b.grains.velocity) +
+         gdesp::largest_distance(a.grains.angular_velocity, b.grains.angular_velocity) +
          largest_distance(a.bodies, b.bodies, &BodyPose::centre) +
          largest_distance(a.bodies, b.bodies, &BodyPose::angular_velocity);
 }
@@ -166,7 +153,7 @@ int check(const std::string& device, bool small) {
     repeat_and_resume(scene, device, table);
   }
 #if defined(GDESP_EMULATED_DEVICE)
-  for (const auto& [body, launches] : emulated::launches())
+  for (const auto& [body, launches] : emulated::work_done())
     std::printf("%8ld launches of %s\n", launches, body.c_str());
 #endif
   std::printf("%d passed, %d failed\n", table.passed, table.failed);
