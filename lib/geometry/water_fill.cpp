@@ -2,6 +2,7 @@
 #include "geometry/water_fill.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -276,16 +277,48 @@ bool in_region(const PorousRegion& region, const Vec3d& p, const FillSpace& s) {
   return i >= 0 && j >= 0 && i < grid.nx && j < grid.ny && region.inside.contains(grid.index(i, j), p.z);
 }
 
-/// A lattice over a box with about `wanted` between points, fitted to the box's faces; `use` gets each point.
-template <class Use>
-void fitted_lattice(const Box& box, double wanted, int dimensions, const Use& use) {
-  int n[3];
-  Vec3d step;
+/// Numbers of points along each axis.
+using Counts = std::array<int, 3>;
+
+/// Spacings as near to `wanted` as whole numbers along each axis can be.
+Counts nearest_counts(const Box& box, double wanted, int dimensions) {
+  Counts n;
   for (int a = 0; a < 3; ++a) {
     const double length = box.upper[a] - box.lower[a];
     n[a] = dimensions == 2 && a == 1 ? 1 : std::max(1, static_cast<int>(std::lround(length / wanted)));
-    step[a] = length / n[a];
   }
+  return n;
+}
+
+/// As many points in all as cells of the size `wanted` would be, from spacings that differ little: a box of a few spacings cannot have
+/// both. Along z any number, along x and y one of the two nearest.
+Counts volume_counts(const Box& box, double wanted, int dimensions) {
+  const Vec3d length = box.upper - box.lower;
+  const bool flat = dimensions == 2;
+  const double cells = length.x / wanted * (flat ? 1.0 : length.y / wanted) * length.z / wanted;
+  const auto below = [&](int a) { return static_cast<int>(std::floor(length[a] / wanted)); };
+  Counts best{};
+  double best_fault = infinity;
+  for (int x = std::max(1, below(0)); x <= below(0) + 1; ++x) {
+    for (int y = flat ? 1 : std::max(1, below(1)); y <= (flat ? 1 : below(1) + 1); ++y) {
+      const int z = std::max(1, static_cast<int>(std::lround(cells / (x * y))));
+      const double dx = length.x / x, dy = flat ? dx : length.y / y, dz = length.z / z;
+      const double fault =
+          std::abs(x * y * z / cells - 1.0) + 0.25 * (std::max({dx, dy, dz}) / std::min({dx, dy, dz}) - 1.0);
+      if (fault < best_fault) {
+        best = {x, y, z};
+        best_fault = fault;
+      }
+    }
+  }
+  return best;
+}
+
+/// A lattice over a box, fitted to the box's faces; `use` gets each point.
+template <class Use>
+void fitted_lattice(const Box& box, const Counts& n, int dimensions, const Use& use) {
+  Vec3d step;
+  for (int a = 0; a < 3; ++a) step[a] = (box.upper[a] - box.lower[a]) / n[a];
   for (int i = 0; i < n[0]; ++i) {
     for (int j = 0; j < n[1]; ++j) {
       for (int k = 0; k < n[2]; ++k) {
@@ -307,7 +340,7 @@ bool in_solid(const Vec3d& p, const FillSpace& s) {
 
 std::vector<Vec3d> box_points(const Box& box, const FillSpace& s, const SceneParts& parts) {
   std::vector<Vec3d> out;
-  fitted_lattice(box, s.lattice.dp, s.lattice.dimensions, [&](const Vec3d& p) {
+  fitted_lattice(box, nearest_counts(box, s.lattice.dp, s.lattice.dimensions), s.lattice.dimensions, [&](const Vec3d& p) {
     if (!in_solid(p, s) && is_clear(p, parts, s.lattice)) out.push_back(p);
   });
   return out;
@@ -361,7 +394,8 @@ void thin_to_pores(std::vector<Vec3d>& fluid, const std::vector<PorousRegion>& p
     if (replaced.empty()) continue;
     const PointCells wet(replaced, s.lattice.dp);
     const double wanted = s.lattice.dp / std::pow(region.porosity, 1.0 / s.lattice.dimensions);
-    fitted_lattice(region.bounds, wanted, s.lattice.dimensions, [&](const Vec3d& p) {
+    const Counts counts = volume_counts(region.bounds, wanted, s.lattice.dimensions);
+    fitted_lattice(region.bounds, counts, s.lattice.dimensions, [&](const Vec3d& p) {
       if (in_region(region, p, s) && wet.any_within(p, 0.9 * s.lattice.dp)) kept.push_back(p);
     });
     fluid = std::move(kept);
