@@ -11,6 +11,7 @@ namespace gdesp::real {
 
 GDESP_HD inline float max(float a, float b) { return a > b ? a : b; }
 GDESP_HD inline float min(float a, float b) { return a < b ? a : b; }
+GDESP_HD inline float floor(float a) { return ::floorf(a); }
 // Rounding a root or a quotient exactly takes a device some ten instructions; its own approximations err by one unit in the
 // last place (CUDA C++ Programming Guide, PTX ISA: sqrt.approx, rcp.approx) and are one, as exec/lanes.hpp does on the CPU.
 /// To one unit in the last place.

@@ -40,25 +40,8 @@ struct NumberTiles {
   }
 };
 
-// Cells, one around each node, of the wanted tiles.
-struct Cells {
-  NodeLattice lattice;
-  const Index* wanted;
-  const Index* storage;
-
-  GDESP_HD std::int64_t number(Index t, const Vec3<std::int32_t>& c) const {
-    return static_cast<std::int64_t>(storage[t]) * lattice.nodes_of_tile() +
-           (c.z * lattice.count.y + c.y) * lattice.count.x + c.x;
-  }
-  GDESP_HD std::int32_t along(std::int64_t p, int axis) const {
-    return static_cast<std::int32_t>(
-        (static_cast<std::uint64_t>(Domain::fraction_of(p)) * static_cast<std::uint64_t>(lattice.count[axis])) >>
-        Domain::fraction_bits);
-  }
-};
-
 struct MarkOccupied {
-  Cells cells;
+  NodeCells cells;
   const FixedPosition* position;
   const std::uint32_t* id;
   std::uint8_t* occupied;
@@ -75,43 +58,16 @@ struct MarkOccupied {
 
 // What lies within `reach` cells of an occupied one.
 struct MarkNear {
-  Cells cells;
+  NodeCells cells;
   const Index* tile;
   const std::uint8_t* occupied;
   int reach;
   std::uint8_t* near;
-
-  // A cell along one axis of tile t, `by` further: false when it lies outside the domain.
-  GDESP_HD bool step(int axis, int by, std::int32_t& t, std::int32_t& c) const {
-    const Domain& domain = cells.lattice.domain;
-    const std::int32_t m = cells.lattice.count[axis], k = c + by;
-    const std::int32_t tiles = k >= 0 ? k / m : -((m - 1 - k) / m);
-    c = k - tiles * m;
-    t += tiles;
-    if (domain.periodic[axis]) t = ((t % domain.tiles[axis]) + domain.tiles[axis]) % domain.tiles[axis];
-    return t >= 0 && t < domain.tiles[axis];
-  }
   GDESP_HD void operator()(Index k) const {
     if (!occupied[k]) return;
-    const Domain& domain = cells.lattice.domain;
-    const Vec3<std::int32_t> count = cells.lattice.count;
-    const Index in_tile = k % cells.lattice.nodes_of_tile();
-    const Vec3<std::int32_t> at = domain.tile_coordinates(tile[k / cells.lattice.nodes_of_tile()]);
-    const int reach_y = count.y > 1 ? reach : 0;
-    for (int z = -reach; z <= reach; ++z) {
-      std::int32_t tz = at.z, cz = in_tile / (count.x * count.y);
-      if (!step(2, z, tz, cz)) continue;
-      for (int y = -reach_y; y <= reach_y; ++y) {
-        std::int32_t ty = at.y, cy = in_tile / count.x % count.y;
-        if (!step(1, y, ty, cy)) continue;
-        for (int x = -reach; x <= reach; ++x) {
-          std::int32_t tx = at.x, cx = in_tile % count.x;
-          if (!step(0, x, tx, cx)) continue;
-          const Index t = (tz * domain.tiles.y + ty) * domain.tiles.x + tx;
-          if (cells.wanted[t]) exec::set_flag(near + cells.number(t, {cx, cy, cz}));
-        }
-      }
-    }
+    const Vec3<std::int32_t> at = cells.lattice.domain.tile_coordinates(tile[k / cells.lattice.nodes_of_tile()]);
+    cells.for_each_around(at, cells.in_tile(k), reach,
+                          [&](Index t, const Vec3<std::int32_t>& c) { exec::set_flag(near + cells.number(t, c)); });
   }
 };
 
@@ -131,7 +87,7 @@ struct CountInRow {
 };
 
 struct WriteNodes {
-  Cells cells;
+  NodeCells cells;
   const Index* tile;
   const std::uint8_t* near_grains;
   const std::uint8_t* near_water;
@@ -139,6 +95,7 @@ struct WriteNodes {
   std::int64_t plane_y;  // of all nodes in the plane
   FixedPosition* position;
   std::uint32_t* id;
+  Index* node_of_cell;
 
   GDESP_HD std::int64_t place(std::int32_t t, std::int32_t c, int axis) const {
     const std::int64_t unit = std::int64_t{1} << Domain::fraction_bits;
@@ -152,12 +109,21 @@ struct WriteNodes {
     Index n = begin[row];
     for (std::int32_t x = 0; x < count.x; ++x) {
       const std::int64_t k = static_cast<std::int64_t>(row) * count.x + x;
+      node_of_cell[k] = -1;
       if (!near_grains[k] || !near_water[k]) continue;
       const bool plane = cells.lattice.domain.dimensions == 2;
       position[n] = {place(at.x, x, 0), plane ? plane_y : place(at.y, cy, 1), place(at.z, cz, 2)};
       id[n] = static_cast<std::uint32_t>(n);
-      ++n;
+      node_of_cell[k] = n++;
     }
+  }
+};
+
+struct InvertOrder {
+  const Index* source;
+  Index* slot_of_node;
+  GDESP_HD void operator()(Index s) const {
+    if (source[s] >= 0) slot_of_node[source[s]] = s;
   }
 };
 
@@ -182,9 +148,10 @@ struct PackNodes {
 
 template <class Exec>
 AveragingNodes<Exec>::AveragingNodes(const Exec& exec, const NodeLattice& lattice)
-    : exec_(exec), lattice_(lattice), set_(exec, lattice.domain, 2.0 * lattice.widest_spacing()), wanted_(exec),
-      storage_(exec), tile_(exec), row_count_(exec), row_begin_(exec), occupied_(exec), near_grains_(exec),
-      near_water_(exec), position_(exec), id_(exec), record_(exec), room_(exec) {}
+    : exec_(exec), lattice_(lattice), set_(exec, lattice.domain, 2.0 * lattice.widest_spacing()),
+      bricks_(exec, lattice), wanted_(exec), storage_(exec), tile_(exec), row_count_(exec), row_begin_(exec),
+      node_of_cell_(exec), slot_of_node_(exec), occupied_(exec), near_grains_(exec), near_water_(exec), position_(exec),
+      id_(exec), record_(exec), room_(exec) {}
 
 template <class Exec>
 void AveragingNodes<Exec>::mark_near(const PlacesOfSet& places, Index cells, int reach,
@@ -193,7 +160,7 @@ void AveragingNodes<Exec>::mark_near(const PlacesOfSet& places, Index cells, int
   near.resize_discard(static_cast<std::size_t>(cells));
   occupied_.fill_bytes(0);
   near.fill_bytes(0);
-  const Cells numbering{lattice_, wanted_.data(), storage_.data()};
+  const NodeCells numbering{lattice_, wanted_.data(), storage_.data()};
   exec::parallel_for(exec_, "nodes::occupied", places.slots,
                      MarkOccupied{numbering, places.position, places.id, occupied_.data()});
   exec::parallel_for(exec_, "nodes::near", cells,
@@ -226,6 +193,7 @@ void AveragingNodes<Exec>::build(const CellGridView& grain_grid, const PlacesOfS
   const Index nodes = exec::exclusive_scan(exec_, "nodes::choose", row_count_.data(), row_begin_.data(), rows);
   position_.resize_discard(static_cast<std::size_t>(nodes));
   id_.resize_discard(static_cast<std::size_t>(nodes));
+  node_of_cell_.resize_discard(static_cast<std::size_t>(cells));
   exec::parallel_for(exec_, "nodes::write", rows,
                      WriteNodes{{lattice_, wanted_.data(), storage_.data()},
                                 tile_.data(),
@@ -234,8 +202,12 @@ void AveragingNodes<Exec>::build(const CellGridView& grain_grid, const PlacesOfS
                                 row_begin_.data(),
                                 domain.fixed({}).y,
                                 position_.data(),
-                                id_.data()});
+                                id_.data(),
+                                node_of_cell_.data()});
   set_.build(position_, id_, nodes, room_);
+  slot_of_node_.resize_discard(static_cast<std::size_t>(nodes));
+  exec::parallel_for(exec_, "nodes::order", set_.slots(), InvertOrder{set_.source(), slot_of_node_.data()});
+  bricks_.build({lattice_, wanted_.data(), storage_.data()}, tile_, used, node_of_cell_, slot_of_node_);
   record_.resize_discard(static_cast<std::size_t>(clusters()) * record_size);
   exec::parallel_for(exec_, "nodes::pack", set_.slots(),
                      PackNodes{domain, set_.view().cluster_tile, position_.data(), set_.source(), record_.data()});

@@ -3,10 +3,7 @@
 // fixed in space, that have both grains and water in reach. A set of places like the others, with records for lists.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-
-#include "coupling/averaging_spline.hpp"
+#include "coupling/node_bricks.hpp"
 #include "neighbors/cluster_list.hpp"
 
 namespace gdesp::coupling {
@@ -17,52 +14,6 @@ struct PlacesOfSet {
   const std::uint32_t* id;
   Index slots;
 };
-
-/// The lattice: every tile of the domain holds the same whole number of nodes along each axis.
-struct NodeLattice {
-  Domain domain;
-  Vec3<std::int32_t> count;  ///< nodes a tile, along each axis; 1 along y in the plane
-
-  NodeLattice() = default;
-  /// `spacing`: m, wanted; the nearest that divides a tile is taken.
-  NodeLattice(const Domain& domain, double spacing);
-  AveragingSpline spline() const;
-  double spacing(int axis) const { return domain.tile_size[axis] / count[axis]; }  ///< m, between nodes
-  /// m, along the axes that the scene has.
-  double widest_spacing() const;
-  double narrowest_spacing() const;
-  /// m, beyond which a node has no weight.
-  double reach() const { return static_cast<double>(spline_reach) * widest_spacing(); }
-  GDESP_HD Index nodes_of_tile() const { return count.x * count.y * count.z; }
-};
-
-inline NodeLattice::NodeLattice(const Domain& domain_, double spacing) : domain(domain_) {
-  for (int axis = 0; axis < 3; ++axis) {
-    count[axis] = std::max(2, static_cast<std::int32_t>(std::lround(domain.tile_size[axis] / spacing)));
-  }
-  if (domain.dimensions == 2) count.y = 1;
-}
-
-inline AveragingSpline NodeLattice::spline() const {
-  AveragingSpline spline{{}, 1.0f, domain.dimensions == 2};
-  double volume = 1.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    spline.inverse_spacing[axis] = static_cast<float>(1.0 / spacing(axis));
-    if (axis != 1 || !spline.plane) volume *= spacing(axis);
-  }
-  spline.inverse_volume = static_cast<float>(1.0 / volume);
-  return spline;
-}
-
-inline double NodeLattice::widest_spacing() const {
-  const double plane = std::max(spacing(0), spacing(2));
-  return domain.dimensions == 2 ? plane : std::max(plane, spacing(1));
-}
-
-inline double NodeLattice::narrowest_spacing() const {
-  const double plane = std::min(spacing(0), spacing(2));
-  return domain.dimensions == 2 ? plane : std::min(plane, spacing(1));
-}
 
 template <class Exec>
 class AveragingNodes {
@@ -75,11 +26,17 @@ class AveragingNodes {
   const ClusterSet<Exec>& set() const { return set_; }
   Index clusters() const { return set_.clusters(); }
   const float* records() const { return record_.data(); }  ///< places; padding beyond reach
+  /// The same nodes as particles read them: from their sums (NodeBricks::fill), and where they are.
+  template <class Recipe>
+  void fill_bricks(const char* name, const float* sums, Index rows, const Recipe& recipe) {
+    bricks_.fill(name, sums, rows, recipe);
+  }
+  NodeBricksView bricks() const { return bricks_.view({lattice_, wanted_.data(), storage_.data()}); }
 
   /// The members that a checkpoint keeps (exec/state_archive.hpp).
   template <class Archive>
   void archive(Archive& a) {
-    a(set_, record_);
+    a(set_, record_, wanted_, storage_, bricks_);
   }
 
  private:
@@ -88,7 +45,8 @@ class AveragingNodes {
   Exec exec_;
   NodeLattice lattice_;
   ClusterSet<Exec> set_;
-  Array<Index, Exec> wanted_, storage_, tile_, row_count_, row_begin_;
+  NodeBricks<Exec> bricks_;
+  Array<Index, Exec> wanted_, storage_, tile_, row_count_, row_begin_, node_of_cell_, slot_of_node_;
   Array<std::uint8_t, Exec> occupied_, near_grains_, near_water_;
   Array<FixedPosition, Exec> position_;
   Array<std::uint32_t, Exec> id_;

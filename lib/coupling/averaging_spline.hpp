@@ -2,9 +2,10 @@
 // How grains and water are averaged over each other: through the nodes of a lattice, which both see with a cubic B-spline.
 // @eq coupling.averaging
 //   W_ia = sum_n S_n(r_i) S_n(r_a) / V_n,  S_n(r) = B(x) B(y) B(z) with (x, y, z) = (r - r_n)/spacing of the nodes,
-//   B(s) = [max(2 - |s|, 0)^3 - 4 max(1 - |s|, 0)^3]/6; S_n = 0 beyond 2.25 spacings, where it is below 1e-5. V_n: volume of
+//   B(s) = [max(2 - |s|, 0)^3 - 4 max(1 - |s|, 0)^3]/6; S_n = 0 beyond 2.25 spacings, where it is below 2e-4. V_n: volume of
 //   a node [m3]; W [1/m3].
-//   Splines add up to one and carry linear functions exactly: sum_a V_a W_ia = 1 in filled space. W has the spread of the
+//   Splines add up to one and carry linear functions exactly (but for those corners, 1e-3 at most): sum_a V_a W_ia = 1 in
+//   filled space. W has the spread of the
 //   Wendland kernel of length h_c (variance 4/15 h_c^2 along each axis in space, 5/18 h_c^2 in the plane) when the spacing of
 //   the nodes is sqrt(2/5) h_c, in the plane sqrt(5/12) h_c. A sum over neighbours inside 2 h_c = 6 h takes 2000 to 3000
 //   pairs a particle; through the nodes it takes 64 and 64.

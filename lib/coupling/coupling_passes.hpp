@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The loops over pairs of the coupling: nodes add up what grains, water and walls bring; grains and water read what nodes
-// hold. Each pass is one half of a sum sum_n S_n(r_i) sum_a S_n(r_a) q_a/V_n (coupling.averaging), r: from the j of the
-// list to its i, so from a particle to the node where nodes add up.
+// The loops over pairs in which nodes add up what grains, water and walls bring: the first half of each sum
+// sum_n S_n(r_i) sum_a S_n(r_a) q_a/V_n (coupling.averaging); the second is in node_reading.hpp. r: from a particle to the node.
 #pragma once
 
 #include "coupling/averaging_spline.hpp"
@@ -18,8 +17,9 @@ enum NodeRow {
   node_velocity = 12,  // sum_a u_a v_a S/V
   node_drag = 12,      // after the gather: sum_i (D_i/N_i) S/V
   node_wall = 24,      // sum_w V_w S/V
-  node_solid = 28,     // sum_i V_i (w/n) S/V, then sum_i V_i w S/V
-  node_slope = 32,     // sum_i slope_i S/V
+  node_solid = 28,     // sum_i V_i w S/V
+  node_deposit = 32,   // sum_i V_i (w/n) S/V, for the porosity of the water
+  node_slope = 32,     // then: sum_i slope_i S/V
   node_offset = 36,    // sum_i (slope_i rho g.(r_n - r_i) - offset_i) S/V
   node_pull = 40,      // sum_i (offset_i + slope_i rho g.(r_i - r_n)) grad S/V + (slope_i rho g - force_i) S/V
   node_slope_gradient = 52
@@ -68,7 +68,7 @@ GDESP_HD inline Float* rows_of(Float* first, Index rows, Index c) {
   return first + static_cast<std::int64_t>(rows) * c;
 }
 
-// One quantity of j, a row of `source`, into a row of the nodes; `factor` comes to 1/V.
+// Volumes of j, a row of `source`, into a row of the nodes; `factor` comes to 1/V.
 struct AddAtNodes {
   NodePairs pairs;
   const float* source;  // null: 1
@@ -87,23 +87,24 @@ struct AddAtNodes {
   }
 };
 
-// One row of the nodes at i, over `factor` (a row of i, or null).
-struct ReadAtPlaces {
+// What the grains take of the water's room, and their own volume (Deposit).
+struct SolidAtNodes {
   NodePairs pairs;
-  const float* row;
-  const float* factor;
-  Index factor_rows;
-  float* result;
-  Index result_rows;
+  float* nodes;
   template <class Lanes>
   GDESP_HD void operator()(Index c, const Lanes& lanes) const {
     using Real = typename Lanes::Real;
-    Real sum(0.0f);
+    const Real inverse_volume(pairs.spline.inverse_volume);
+    Real deposit(0.0f), solid(0.0f);
     pairs.for_each(c, lanes, [&](Index j, const Place<Real>& r) {
-      sum += pairs.spline.weight(r.x, r.y, r.z) * lanes.load_j(rows_of(row, node_rows, j));
+      const float* rj = pairs.of_j + record_offset(j);
+      const Real S = pairs.spline.weight(r.x, r.y, r.z);
+      deposit += S * lanes.load_j(rj + row_volume);
+      solid += S * lanes.load_j(rj + row_offset);
     });
-    lanes.store_sum_i(rows_of(result, result_rows, c),
-                      factor ? sum * lanes.load_i(rows_of(factor, factor_rows, c)) : sum);
+    float* out = rows_of(nodes, node_rows, c);
+    lanes.store_sum_i(out + node_deposit, deposit * inverse_volume);
+    lanes.store_sum_i(out + node_solid, solid * inverse_volume);
   }
 };
 
@@ -135,53 +136,6 @@ struct WaterAtNodes {
   }
 };
 
-// Sums over the water at a grain.
-struct GatherAtGrains {
-  NodePairs pairs;
-  Vec3f rho_g;
-  const float* nodes;
-  float* sums;
-  template <class Lanes>
-  GDESP_HD void operator()(Index c, const Lanes& lanes) const {
-    using Real = typename Lanes::Real;
-    const Real zero(0.0f);
-    Real water = zero, boosted = zero, pressure = zero, solid = zero, velocity[3] = {zero, zero, zero};
-    Real water_gradient[3] = {zero, zero, zero}, pressure_gradient[3] = {zero, zero, zero};
-    Real wall = zero, wall_gradient[3] = {zero, zero, zero};
-    pairs.for_each(c, lanes, [&](Index j, const Place<Real>& r) {
-      AveragingSpline::Gradient<Real> gradient;
-      const Real S = pairs.spline.weight(r.x, r.y, r.z, gradient);
-      const float* n = rows_of(nodes, node_rows, j);
-      const Real U = lanes.load_j(n + node_water), P = lanes.load_j(n + node_pressure) + U * dot(rho_g, r);
-      const Real walls = lanes.load_j(n + node_wall);
-      water += S * U;
-      wall += S * walls;
-      boosted += S * lanes.load_j(n + node_boosted);
-      solid += S * lanes.load_j(n + node_solid);
-      pressure += S * P;
-      const Real d[3] = {gradient.x, gradient.y, gradient.z};
-      for (int k = 0; k < 3; ++k) {
-        velocity[k] += S * lanes.load_j(n + node_velocity + 4 * k);
-        water_gradient[k] += d[k] * U;
-        pressure_gradient[k] += d[k] * P;
-        wall_gradient[k] += d[k] * walls;
-      }
-    });
-    float* out = rows_of(sums, sum_rows, c);
-    lanes.store_sum_i(out + sum_water, water);
-    lanes.store_sum_i(out + sum_boosted, boosted);
-    lanes.store_sum_i(out + sum_solid, solid);
-    lanes.store_sum_i(out + sum_pressure, pressure);
-    lanes.store_sum_i(out + sum_wall, wall);
-    for (int k = 0; k < 3; ++k) {
-      lanes.store_sum_i(out + sum_velocity + 4 * k, velocity[k]);
-      lanes.store_sum_i(out + sum_water_gradient + 4 * k, water_gradient[k]);
-      lanes.store_sum_i(out + sum_pressure_gradient + 4 * k, pressure_gradient[k]);
-      lanes.store_sum_i(out + sum_wall_gradient + 4 * k, wall_gradient[k]);
-    }
-  }
-};
-
 // What the grains add to the mixture pressure, at the nodes.
 struct MixtureAtNodes {
   NodePairs pairs;
@@ -201,40 +155,6 @@ struct MixtureAtNodes {
     float* out = rows_of(nodes, node_rows, c);
     lanes.store_sum_i(out + node_slope, slope * inverse_volume);
     lanes.store_sum_i(out + node_offset, offset * inverse_volume);
-  }
-};
-
-// The mixture pressure, in the place of the pressure, for the water's own momentum.
-struct MixturePressure {
-  NodePairs pairs;
-  Vec3f rho_g;
-  float inverse_stiffness;
-  const float* nodes;
-  const float* water;
-  const float* porosity;
-  const float* density;  // of the form of the paper: the row is over its ratio squared; null else
-  float* fluid;
-  template <class Lanes>
-  GDESP_HD void operator()(Index c, const Lanes& lanes) const {
-    using Real = typename Lanes::Real;
-    const float* w = rows_of(water, water_rows, c);
-    Real of_grains(0.0f);
-    bool any = false;
-    pairs.for_each(c, lanes, [&](Index j, const Place<Real>& r) {
-      const float* n = rows_of(nodes, node_rows, j);
-      of_grains += pairs.spline.weight(r.x, r.y, r.z) *
-                   (lanes.load_j(n + node_offset) + lanes.load_j(n + node_slope) * dot(rho_g, r));
-      any = true;
-    });
-    if (!any) return;
-    // A quarter in each of the four lanes that are added up.
-    const Real own = lanes.load_i(porosity + 4 * static_cast<std::int64_t>(c)) * lanes.load_i(w + 4) * Real(0.25f);
-    Real scale(inverse_stiffness);
-    if (density) {
-      const Real ratio = Real(1.0f) + lanes.load_i(density + 4 * static_cast<std::int64_t>(c));
-      scale = scale / (ratio * ratio);
-    }
-    lanes.store_sum_i(fluid + record_offset(c) + 28, (own + of_grains) * scale);
   }
 };
 
@@ -271,31 +191,46 @@ struct ReactionAtNodes {
   }
 };
 
-struct ReactionOnFluid {
-  NodePairs pairs;
+// What bricks take from a node at r (m, from the origin of their tile): pressures as they would be there, in water at rest.
+struct RoomOfNodes {
+  static constexpr Index groups = 1;
+  GDESP_HD void operator()(const float* n, const Vec3f&, float* out) const {
+    out[sum_water] = n[node_water];
+    out[sum_wall] = n[node_wall];
+    out[sum_solid] = n[node_deposit];
+  }
+};
+struct WaterOfNodes {
+  static constexpr Index groups = 2;
   Vec3f rho_g;
-  float inverse_mass;  // 1 / (rho0 V0)
-  const float* nodes;
-  const float* water;
-  const float* mass_share;
-  float* reaction;
-  template <class Lanes>
-  GDESP_HD void operator()(Index c, const Lanes& lanes) const {
-    using Real = typename Lanes::Real;
-    const float* w = rows_of(water, water_rows, c);
-    const Real P = lanes.load_i(w + 4), boost = lanes.load_i(w + water_boost);
-    Real f[3] = {Real(0.0f), Real(0.0f), Real(0.0f)};
-    pairs.for_each(c, lanes, [&](Index j, const Place<Real>& r) {  // r: from the node to the water
-      const float* n = rows_of(nodes, node_rows, j);
-      const Real S = pairs.spline.weight(r.x, r.y, r.z), p = P - dot(rho_g, r);
-      for (int k = 0; k < 3; ++k) {
-        f[k] += S * (lanes.load_j(n + node_pull + 4 * k) + p * lanes.load_j(n + node_slope_gradient + 4 * k) -
-                     boost * lanes.load_j(n + node_drag + 4 * k));
-      }
-    });
-    const Real scale =
-        Real(inverse_mass) * lanes.load_i(w) / lanes.load_i(mass_share + 4 * static_cast<std::int64_t>(c));
-    for (int k = 0; k < 3; ++k) lanes.store_sum_i(rows_of(reaction, 12, c) + 4 * k, f[k] * scale);
+  GDESP_HD void operator()(const float* n, const Vec3f& r, float* out) const {
+    out[sum_water] = n[node_water];
+    out[sum_pressure] = n[node_pressure] - n[node_water] * dot(rho_g, r);
+    out[sum_wall] = n[node_wall];
+    out[sum_solid] = n[node_solid];
+    out[sum_boosted] = n[node_boosted];
+    for (int k = 0; k < 3; ++k) out[sum_velocity + k] = n[node_velocity + 4 * k];
+  }
+};
+struct MixtureOfNodes {
+  static constexpr Index groups = 1;
+  Vec3f rho_g;
+  GDESP_HD void operator()(const float* n, const Vec3f& r, float* out) const {
+    out[0] = n[node_slope];
+    out[1] = n[node_offset] - n[node_slope] * dot(rho_g, r);
+  }
+};
+struct ReactionOfNodes {
+  static constexpr Index groups = 3;
+  Vec3f rho_g;
+  GDESP_HD void operator()(const float* n, const Vec3f& r, float* out) const {
+    const float head = dot(rho_g, r);
+    for (int k = 0; k < 3; ++k) {
+      const float slope = n[node_slope_gradient + 4 * k];
+      out[4 * k] = n[node_pull + 4 * k] + slope * head;
+      out[4 * k + 1] = slope;
+      out[4 * k + 2] = n[node_drag + 4 * k];
+    }
   }
 };
 

@@ -13,19 +13,17 @@ namespace gdesp::coupling {
 // Rows of a record of grains (four floats each), as the passes leave them.
 enum GrainRow { row_x = 0, row_y = 4, row_z = 8, row_volume = 12, row_force = 16, row_offset = 28 };
 // Rows of the water's own: volume (m3), pressure (Pa), 1/(room that walls leave).
-constexpr Index water_rows = 12, water_boost = 8;
-// Rows of the sums at grains.
-constexpr Index sum_rows = 68;
-enum SumRow {
+constexpr Index water_rows = 12, water_pressure = 4, water_boost = 8;
+// Sums at a grain, by slot: two groups of four, and the gradients of the first along x, y, z.
+constexpr int sums_of_grain = 20;
+enum GrainSum {
   sum_water = 0,
+  sum_pressure = 1,
+  sum_wall = 2,
+  sum_solid = 3,
   sum_boosted = 4,
-  sum_velocity = 8,
-  sum_pressure = 20,
-  sum_water_gradient = 24,
-  sum_pressure_gradient = 36,
-  sum_wall = 48,
-  sum_wall_gradient = 52,
-  sum_solid = 64
+  sum_velocity = 5,
+  sum_gradient = 8  // + 4 axis + one of the first four
 };
 
 GDESP_HD inline float grain_volume(float R, bool discs) {
@@ -80,54 +78,41 @@ struct PackWater {
   }
 };
 
-struct RoomToBoost {
-  float wall_factor;
-  float* water;
-  GDESP_HD void operator()(Index s) const {
-    float* r = water + water_rows * static_cast<std::int64_t>(s / exec::cluster_size) + s % exec::cluster_size;
-    r[8] = 1.0f / open_share(wall_factor * r[8]);
-  }
-};
-
-// V to V w/n.
+// V to V w/n, for the porosity of the water, and beside it V w, for that which drag sees.
 struct Deposit {
   const float* sums;
   float* record;
   float wall_factor;
   bool all;  // whatever touches water, before it is known how much room the water takes
   GDESP_HD void operator()(Index s) const {
-    const std::int64_t c = s / exec::cluster_size, lane = s % exec::cluster_size;
-    float* r = record + record_offset(static_cast<Index>(c)) + lane;
-    const float n = sums[sum_rows * c + lane + sum_water],
-                room = open_share(wall_factor * sums[sum_rows * c + lane + sum_wall]);
+    const float* q = sums + sums_of_grain * static_cast<std::int64_t>(s);
+    float* r = record + record_offset(s / exec::cluster_size) + s % exec::cluster_size;
+    const float n = q[sum_water], room = open_share(wall_factor * q[sum_wall]);
     r[row_volume] = all ? (n > 0.02f ? r[row_volume] : 0.0f) : deposited_volume(r[row_volume], n, room);
+    r[row_offset] = r[row_volume] * n;
   }
 };
 
-// V w/n back to V w, for the porosity that drag sees.
-struct WholeVolume {
-  const float* sums;
-  float* record;
-  GDESP_HD void operator()(Index s) const {
-    const std::int64_t c = s / exec::cluster_size, lane = s % exec::cluster_size;
-    record[record_offset(static_cast<Index>(c)) + lane + row_volume] *= sums[sum_rows * c + lane + sum_water];
-  }
-};
-
-struct SolidToPorosity {
-  const float* solid;
+// Porosity of the water, and the room that walls leave it, from what it read of the nodes.
+struct RoomOfWater {
+  const float* read;  // four a slot
   const float* density;
+  float wall_factor;
+  float* water;
   float* porosity;
   bool starting;
   GDESP_HD void operator()(Index s) const {
-    const float found = real::max(
-        1.0f - solid[12 * static_cast<std::int64_t>(s / exec::cluster_size) + s % exec::cluster_size], least_porosity);
+    const float* q = read + 4 * static_cast<std::int64_t>(s);
+    water[water_rows * static_cast<std::int64_t>(s / exec::cluster_size) + s % exec::cluster_size + water_boost] =
+        1.0f / open_share(wall_factor * q[sum_wall]);
+    const float found = real::max(1.0f - q[sum_solid], least_porosity);
     // Opened water takes its room from the porosity before: half of the way, so that the two settle.
     const bool opened = starting || 1.0f + density[s] < 0.98f * porosity[s];
     porosity[s] = opened ? 0.5f * (found + porosity[s]) : found;
   }
 };
 
+// Every fourth of three.
 GDESP_HD inline Vec3f vector_at(const float* q) { return {q[0], q[4], q[8]}; }
 
 struct ForcesOnGrains {
@@ -150,9 +135,8 @@ struct ForcesOnGrains {
   Vec3f* other_force;
 
   GDESP_HD void operator()(Index s) const {
-    const std::int64_t c = s / exec::cluster_size, lane = s % exec::cluster_size;
-    const float* q = sums + sum_rows * c + lane;
-    float* r = record + record_offset(static_cast<Index>(c)) + lane;
+    const float* q = sums + sums_of_grain * static_cast<std::int64_t>(s);
+    float* r = record + record_offset(s / exec::cluster_size) + s % exec::cluster_size;
     r[row_volume] = r[row_offset] = 0.0f;
     drag_coefficient[s] = fluid_mass[s] = added_mass[s] = 0.0f;
     porosity[s] = 1.0f;
@@ -161,13 +145,16 @@ struct ForcesOnGrains {
     if (id[s] == no_particle || wet <= 0.0f) return;
     const float inverse = 1.0f / q[sum_boosted];
     const float eps = real::min(real::max(1.0f - q[sum_solid] / open_share(q[sum_wall]), porosity_floor), 1.0f);
-    const Vec3f u = vector_at(q + sum_velocity) * inverse;
+    const Vec3f u = Vec3f{q[sum_velocity], q[sum_velocity + 1], q[sum_velocity + 2]} * inverse;
     const float R = grain[s].radius, V = grain_volume(R, discs);
-    const Buoyancy push =
-        buoyancy(V,
-                 {n, q[sum_pressure], vector_at(q + sum_water_gradient), vector_at(q + sum_pressure_gradient), room,
-                  vector_at(q + sum_wall_gradient) * wall_factor},
-                 gravity * density);
+    // Pressures were read as at the origin of the tile.
+    const float head = dot(gravity * density, vector_at(r + row_x));
+    const Vec3f water_gradient = vector_at(q + sum_gradient + sum_water);
+    const Buoyancy push = buoyancy(V,
+                                   {n, q[sum_pressure] + n * head, water_gradient,
+                                    vector_at(q + sum_gradient + sum_pressure) + water_gradient * head, room,
+                                    vector_at(q + sum_gradient + sum_wall) * wall_factor},
+                                   gravity * density);
     const float given = real_diameter ? real_diameter[group[s]] : 0.0f;
     const Vec3f v{grain[s].vx, grain[s].vy, grain[s].vz};
     const DragState state{eps, norm(u - v), given > 0.0f ? given : 2.0f * R, density, viscosity};
@@ -201,10 +188,9 @@ struct PackReaction {
   float inverse_dt, kick_share;  // 1/s; time of constant forces over dt
   float* record;
   GDESP_HD void operator()(Index s) const {
-    const std::int64_t c = s / exec::cluster_size, lane = s % exec::cluster_size;
-    float* r = record + record_offset(static_cast<Index>(c)) + lane;
+    float* r = record + record_offset(s / exec::cluster_size) + s % exec::cluster_size;
     if (id[s] == no_particle || r[row_volume] <= 0.0f) return;  // dry
-    const float N = sums[sum_rows * c + lane + sum_boosted];
+    const float N = sums[sums_of_grain * static_cast<std::int64_t>(s) + sum_boosted];
     const Vec3f change = velocity[s] - velocity_before[s];
     const Vec3f F = fluid_acceleration[s] * (added_mass[s] * kick_share) +
                     static_cast<Vec3f>(drag_impulse[s] * static_cast<double>(inverse_dt)) -
@@ -218,11 +204,15 @@ struct PackReaction {
 };
 
 struct UnpackReaction {
-  const float* reaction;
+  const float* reaction;  // four a slot
+  const float* water;
+  const float* mass_share;
+  float inverse_mass;  // 1 / (rho0 V0)
   Vec3f* external;
   GDESP_HD void operator()(Index s) const {
-    const float* r = reaction + 12 * static_cast<std::int64_t>(s / exec::cluster_size) + s % exec::cluster_size;
-    external[s] = {r[0], r[4], r[8]};
+    const float* f = reaction + 4 * static_cast<std::int64_t>(s);
+    const float volume = water[water_rows * static_cast<std::int64_t>(s / exec::cluster_size) + s % exec::cluster_size];
+    external[s] = Vec3f{f[0], f[1], f[2]} * (inverse_mass * volume / mass_share[s]);
   }
 };
 

@@ -2,15 +2,16 @@
 #include "coupling/grain_fluid_coupling.hpp"
 
 #include "coupling/coupling_passes.hpp"
+#include "coupling/node_reading.hpp"
 
 namespace gdesp::coupling {
 template <class Exec>
 GrainFluidCoupling<Exec>::GrainFluidCoupling(const Exec& exec, const Domain& domain, const CouplingLaw& law)
     : exec_(exec), domain_(domain), law_(law), lattice_(domain, node_spacing(law.smoothing_length, law.dimensions)),
-      nodes_(exec, lattice_), node_grain_(exec), node_fluid_(exec), node_wall_(exec), grain_node_(exec),
-      fluid_node_(exec), node_sums_(exec), real_diameter_(exec), record_(exec), sums_(exec), water_(exec),
-      velocity_before_(exec), porosity_(exec), drag_coefficient_(exec), fluid_mass_(exec), added_mass_(exec),
-      fluid_velocity_(exec), fluid_acceleration_(exec), other_force_(exec), reaction_(exec) {
+      nodes_(exec, lattice_), node_grain_(exec), node_fluid_(exec), node_wall_(exec), node_sums_(exec),
+      real_diameter_(exec), record_(exec), sums_(exec), water_(exec), velocity_before_(exec), porosity_(exec),
+      drag_coefficient_(exec), fluid_mass_(exec), added_mass_(exec), fluid_velocity_(exec), fluid_acceleration_(exec),
+      other_force_(exec), reaction_(exec) {
   real_diameter_.assign(law.real_diameter);
   const double sigma = law.smoothing_length * std::sqrt(law.dimensions == 2 ? 5.0 / 18.0 : 4.0 / 15.0);
   wall_factor_ = static_cast<float>(1.0 / std::erf(3.0 * law.dp / (std::sqrt(2.0) * sigma)));
@@ -26,14 +27,13 @@ void GrainFluidCoupling<Exec>::rebuild(const dem::GrainSystem<Exec>& grains, con
                                        double skin) {
   const auto n = static_cast<std::size_t>(grains.slots());
   const auto water_clusters = static_cast<std::size_t>(fluid.set().clusters());
-  grain_slots_ = grains.slots();
   record_.resize_discard(n * 8);
-  sums_.resize_discard(n * sum_rows / exec::cluster_size);
+  sums_.resize_discard(n * sums_of_grain);
 
   for (auto* array : {&porosity_, &drag_coefficient_, &fluid_mass_, &added_mass_}) array->resize_discard(n);
   for (auto* array : {&velocity_before_, &fluid_velocity_, &fluid_acceleration_, &other_force_})
     array->resize_discard(n);
-  reaction_.resize_discard(water_clusters * 12);
+  reaction_.resize_discard(water_clusters * 4 * exec::cluster_size);
   water_.resize_discard(water_clusters * water_rows);
   place(grains, 0.0);
   const CellGridView fluid_grid = fluid.set().view(), grain_grid = grains.set().view();
@@ -45,8 +45,6 @@ void GrainFluidCoupling<Exec>::rebuild(const dem::GrainSystem<Exec>& grains, con
   node_grain_.build(node_grid, nodes_.records(), grain_grid, record_.data(), cutoff);
   node_fluid_.build(node_grid, nodes_.records(), fluid_grid, fluid.records(), cutoff);
   node_wall_.build(node_grid, nodes_.records(), fluid.wall_set().view(), fluid.wall_records(), cutoff);
-  grain_node_.build(grain_grid, record_.data(), node_grid, nodes_.records(), cutoff);
-  fluid_node_.build(fluid_grid, fluid.records(), node_grid, nodes_.records(), cutoff);
 }
 
 template <class Exec>
@@ -79,56 +77,50 @@ NodePairs GrainFluidCoupling<Exec>::walls_at_nodes(const sph::FluidSystem<Exec>&
   return {lattice_.spline(), node_wall_.view(), nodes_.records(), fluid.wall_records()};
 }
 template <class Exec>
-NodePairs GrainFluidCoupling<Exec>::nodes_at_grains() const {
-  return {lattice_.spline(), grain_node_.view(), record_.data(), nodes_.records()};
+NodeReader GrainFluidCoupling<Exec>::nodes_at_grains(const dem::GrainSystem<Exec>& grains) const {
+  return {lattice_.spline(), nodes_.bricks(), grains.set().view().cluster_tile, record_.data()};
 }
 template <class Exec>
-NodePairs GrainFluidCoupling<Exec>::nodes_at_water(const sph::FluidSystem<Exec>& fluid) const {
-  return {lattice_.spline(), fluid_node_.view(), fluid.records(), nodes_.records()};
+NodeReader GrainFluidCoupling<Exec>::nodes_at_water(const sph::FluidSystem<Exec>& fluid) const {
+  return {lattice_.spline(), nodes_.bricks(), fluid.set().view().cluster_tile, fluid.records()};
 }
 
 template <class Exec>
-void GrainFluidCoupling<Exec>::find_porosity(sph::FluidSystem<Exec>& fluid, Start start) {
-  const Index nodes = nodes_.clusters(), water_clusters = fluid.set().clusters();
+void GrainFluidCoupling<Exec>::find_porosity(const dem::GrainSystem<Exec>& grains, sph::FluidSystem<Exec>& fluid,
+                                             Start start) {
+  const Index nodes = nodes_.clusters();
   float* sums = node_sums_.data();
+  pack_water(fluid);
   exec::pair_pass(exec_, "coupling::room", nodes,
                   AddAtNodes{walls_at_nodes(fluid), nullptr, 0, lattice_volume(), sums + node_wall});
-  exec::pair_pass(
-      exec_, "coupling::room", water_clusters,
-      ReadAtPlaces{nodes_at_water(fluid), sums + node_wall, nullptr, 0, water_.data() + water_boost, water_rows});
-  exec::parallel_for(exec_, "coupling::room_finish", fluid.slots(), RoomToBoost{wall_factor_, water_.data()});
-  exec::pair_pass(exec_, "coupling::room", grain_slots_ / exec::cluster_size,
-                  ReadAtPlaces{nodes_at_grains(), sums + node_wall, nullptr, 0, sums_.data() + sum_wall, sum_rows});
-  pack_water(fluid);
-  exec::pair_pass(exec_, "coupling::wet", nodes,
+  exec::pair_pass(exec_, "coupling::room", nodes,
                   AddAtNodes{water_at_nodes(fluid), water_.data(), water_rows, 1.0f, sums + node_water});
-  exec::pair_pass(exec_, "coupling::wet", grain_slots_ / exec::cluster_size,
-                  ReadAtPlaces{nodes_at_grains(), sums + node_water, nullptr, 0, sums_.data() + sum_water, sum_rows});
-  exec::parallel_for(exec_, "coupling::deposit", grain_slots_,
+  nodes_.fill_bricks("coupling::bricks", sums, node_rows, RoomOfNodes{});
+  exec::pair_pass(exec_, "coupling::wet", grains.set().clusters(),
+                  ReadNodes{nodes_at_grains(grains), sums_.data(), sums_of_grain});
+  exec::parallel_for(exec_, "coupling::deposit", grains.slots(),
                      Deposit{sums_.data(), record_.data(), wall_factor_, start == Start::guess});
-  exec::pair_pass(exec_, "coupling::porosity", nodes,
-                  AddAtNodes{grains_at_nodes(), record_.data() + row_volume, record_size, 1.0f, sums + node_solid});
-  exec::pair_pass(exec_, "coupling::porosity", water_clusters,
-                  ReadAtPlaces{nodes_at_water(fluid), sums + node_solid, nullptr, 0, reaction_.data(), 12});
-  exec::parallel_for(exec_, "coupling::whole", grain_slots_, WholeVolume{sums_.data(), record_.data()});
-  exec::pair_pass(exec_, "coupling::solid", nodes,
-                  AddAtNodes{grains_at_nodes(), record_.data() + row_volume, record_size, 1.0f, sums + node_solid});
+  exec::pair_pass(exec_, "coupling::solid", nodes, SolidAtNodes{grains_at_nodes(), sums});
+  nodes_.fill_bricks("coupling::bricks", sums, node_rows, RoomOfNodes{});
+  exec::pair_pass(exec_, "coupling::porosity", fluid.set().clusters(),
+                  ReadNodes{nodes_at_water(fluid), reaction_.data(), 4});
   exec::parallel_for(exec_, "coupling::porosity_finish", fluid.slots(),
-                     SolidToPorosity{reaction_.data(), fluid.densities(), fluid.porosity(), start == Start::settle});
+                     RoomOfWater{reaction_.data(), fluid.densities(), wall_factor_, water_.data(), fluid.porosity(),
+                                 start == Start::settle});
 }
 
 template <class Exec>
-void GrainFluidCoupling<Exec>::update_porosity(sph::FluidSystem<Exec>& fluid) {
-  find_porosity(fluid, Start::none);
+void GrainFluidCoupling<Exec>::update_porosity(const dem::GrainSystem<Exec>& grains, sph::FluidSystem<Exec>& fluid) {
+  find_porosity(grains, fluid, Start::none);
 }
 
 template <class Exec>
 void GrainFluidCoupling<Exec>::start_porosity(const dem::GrainSystem<Exec>& grains, sph::FluidSystem<Exec>& fluid) {
-  find_porosity(fluid, Start::guess);
+  find_porosity(grains, fluid, Start::guess);
   fluid.fill_pores(true);
   for (int round = 0; round < 12; ++round) {
     place(grains, 0.0);
-    find_porosity(fluid, Start::settle);
+    find_porosity(grains, fluid, Start::settle);
     fluid.fill_pores(false);
   }
 }
@@ -141,8 +133,9 @@ void GrainFluidCoupling<Exec>::gather_forces(dem::GrainSystem<Exec>& grains, sph
   float* sums = node_sums_.data();
   exec::pair_pass(exec_, "coupling::water_at_nodes", nodes,
                   WaterAtNodes{water_at_nodes(fluid), rho_g, water_.data(), sums});
+  nodes_.fill_bricks("coupling::bricks", sums, node_rows, WaterOfNodes{rho_g});
   exec::pair_pass(exec_, "coupling::gather", grains.set().clusters(),
-                  GatherAtGrains{nodes_at_grains(), rho_g, sums, sums_.data()});
+                  GatherAtGrains{nodes_at_grains(grains), sums_.data()});
   exec::parallel_for(exec_, "coupling::forces", grains.slots(),
                      ForcesOnGrains{grains.records(),
                                     grains.ids(),
@@ -166,9 +159,10 @@ void GrainFluidCoupling<Exec>::gather_forces(dem::GrainSystem<Exec>& grains, sph
                                     other_force_.data()});
   const double c = fluid.parameters().sound_speed;
   exec::pair_pass(exec_, "coupling::mixture", nodes, MixtureAtNodes{grains_at_nodes(), rho_g, sums});
+  nodes_.fill_bricks("coupling::bricks", sums, node_rows, MixtureOfNodes{rho_g});
   exec::pair_pass(
-      exec_, "coupling::mixture", fluid.set().clusters(),
-      MixturePressure{nodes_at_water(fluid), rho_g, static_cast<float>(1.0 / (law_.fluid_density * c * c)), sums,
+      exec_, "coupling::mixture_read", fluid.set().clusters(),
+      MixturePressure{nodes_at_water(fluid), rho_g, static_cast<float>(1.0 / (law_.fluid_density * c * c)),
                       water_.data(), fluid.porosity(), fluid.parameters().paper_form ? fluid.densities() : nullptr,
                       fluid.mixture_records()});
   grains.set_fluid({drag_coefficient_.data(), fluid_mass_.data(), added_mass_.data(), other_force_.data(),
@@ -185,12 +179,13 @@ void GrainFluidCoupling<Exec>::react(const dem::GrainSystem<Exec>& grains, sph::
   const Vec3f rho_g = static_cast<Vec3f>(law_.gravity * law_.fluid_density);
   exec::pair_pass(exec_, "coupling::reaction", nodes_.clusters(),
                   ReactionAtNodes{grains_at_nodes(), rho_g, node_sums_.data()});
-  exec::pair_pass(
-      exec_, "coupling::reaction", fluid.set().clusters(),
-      ReactionOnFluid{nodes_at_water(fluid), rho_g, static_cast<float>(1.0 / law_.fluid_density) / lattice_volume(),
-                      node_sums_.data(), water_.data(), fluid.mass_share(), reaction_.data()});
-  exec::parallel_for(exec_, "coupling::unpack", fluid.slots(),
-                     UnpackReaction{reaction_.data(), fluid.external_acceleration()});
+  nodes_.fill_bricks("coupling::bricks", node_sums_.data(), node_rows, ReactionOfNodes{rho_g});
+  exec::pair_pass(exec_, "coupling::reaction_read", fluid.set().clusters(),
+                  ReactionOnFluid{nodes_at_water(fluid), rho_g, water_.data(), reaction_.data()});
+  exec::parallel_for(
+      exec_, "coupling::unpack", fluid.slots(),
+      UnpackReaction{reaction_.data(), water_.data(), fluid.mass_share(),
+                     static_cast<float>(1.0 / law_.fluid_density) / lattice_volume(), fluid.external_acceleration()});
 }
 
 template class GrainFluidCoupling<exec::CompiledBackend>;

@@ -37,7 +37,8 @@ struct CouplingLaw {
   std::vector<float> real_diameter;  ///< m per grain group; 0: its own
 };
 
-struct NodePairs;  // coupling_passes.hpp
+struct NodePairs;   // coupling_passes.hpp
+struct NodeReader;  // node_reading.hpp
 
 /// Lowest porosity the laws are given (random loose packings lie near 0.4; closer is outside Ergun's data).
 inline constexpr float porosity_floor = 0.3f;
@@ -59,7 +60,7 @@ class GrainFluidCoupling {
   /// coupling a leapfrog (at their place now it is explicit Euler, which feeds energy into waves between grains and water).
   void place(const dem::GrainSystem<Exec>& grains, double ahead);
   /// Porosity at the fluid particles, from the grains as placed.
-  void update_porosity(sph::FluidSystem<Exec>& fluid);
+  void update_porosity(const dem::GrainSystem<Exec>& grains, sph::FluidSystem<Exec>& fluid);
   /// At the start: porosity, and water at its true density in the pores. Room and porosity depend on each other.
   void start_porosity(const dem::GrainSystem<Exec>& grains, sph::FluidSystem<Exec>& fluid);
   /// From the fluid's records: what it asks of the grains for a step. Leaves the mixture pressure in the records, for the fluid's momentum, which is next.
@@ -74,40 +75,38 @@ class GrainFluidCoupling {
   /// The members that a checkpoint keeps (exec/state_archive.hpp).
   template <class Archive>
   void archive(Archive& a) {
-    a(nodes_, node_grain_, node_fluid_, node_wall_, grain_node_, fluid_node_, node_sums_, grain_slots_, record_, sums_,
-      water_, velocity_before_, porosity_, drag_coefficient_, fluid_mass_, added_mass_, fluid_velocity_,
-      fluid_acceleration_, other_force_, reaction_);
+    a(nodes_, node_grain_, node_fluid_, node_wall_, node_sums_, record_, sums_, water_, velocity_before_, porosity_,
+      drag_coefficient_, fluid_mass_, added_mass_, fluid_velocity_, fluid_acceleration_, other_force_, reaction_);
   }
 
  private:
   enum class Start { none, guess, settle };
-  void find_porosity(sph::FluidSystem<Exec>& fluid, Start start);
+  void find_porosity(const dem::GrainSystem<Exec>& grains, sph::FluidSystem<Exec>& fluid, Start start);
   float lattice_volume() const;  ///< m3, or m2 in two dimensions
   void pack_water(const sph::FluidSystem<Exec>& fluid);
-  // Pairs of the passes: what nodes add up, and who reads them.
+  // What nodes add up, and who reads them.
   NodePairs grains_at_nodes() const;
   NodePairs water_at_nodes(const sph::FluidSystem<Exec>& fluid) const;
   NodePairs walls_at_nodes(const sph::FluidSystem<Exec>& fluid) const;
-  NodePairs nodes_at_grains() const;
-  NodePairs nodes_at_water(const sph::FluidSystem<Exec>& fluid) const;
+  NodeReader nodes_at_grains(const dem::GrainSystem<Exec>& grains) const;
+  NodeReader nodes_at_water(const sph::FluidSystem<Exec>& fluid) const;
 
   Exec exec_;
   Domain domain_;
   CouplingLaw law_;
   NodeLattice lattice_;
   AveragingNodes<Exec> nodes_;
-  ClusterList<Exec> node_grain_, node_fluid_, node_wall_, grain_node_, fluid_node_;
-  Index grain_slots_ = 0;
+  ClusterList<Exec> node_grain_, node_fluid_, node_wall_;
   float wall_factor_;             ///< of the wall's share: three layers of particles stand for a wall without end
   Array<float, Exec> node_sums_;  ///< rows of coupling_passes.hpp, per cluster of nodes
   Array<float, Exec> real_diameter_;
   Array<float, Exec> record_;           ///< x y z V w/N | D/N (3) and offset (coupling.buoyancy), 4 each, per cluster
-  Array<float, Exec> sums_;             ///< rows of coupling_slots.hpp, per cluster
+  Array<float, Exec> sums_;             ///< GrainSum of coupling_slots.hpp, per slot
   Array<float, Exec> water_;            ///< volume (m3), pressure (Pa), 1/(1 - S) of the water, 4 each, per cluster
   Array<Vec3f, Exec> velocity_before_;  ///< m/s, when placed
   Array<float, Exec> porosity_, drag_coefficient_, fluid_mass_, added_mass_;
   Array<Vec3f, Exec> fluid_velocity_, fluid_acceleration_, other_force_;
-  Array<float, Exec> reaction_;  ///< 3 rows of 4 per fluid cluster
+  Array<float, Exec> reaction_;  ///< what the water reads of the nodes, 4 a slot
 };
 
 }  // namespace gdesp::coupling

@@ -23,6 +23,7 @@ namespace gdesp::exec {
 inline constexpr Index cluster_size = 4;
 
 // One real lane (GPU), and the scalars of both.
+using real::floor;
 using real::inverse_sqrt;
 using real::max;
 using real::min;
@@ -77,6 +78,9 @@ inline Float16 min(const Float16& a, const Float16& b) { return lanes_of(_mm512_
 inline Float16 select(const Float16::Mask& c, const Float16& a, const Float16& b) {
   return lanes_of(_mm512_mask_mov_ps(packed(b), c.bits, packed(a)));
 }
+inline Float16 floor(const Float16& a) {
+  return lanes_of(_mm512_roundscale_ps(packed(a), _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC));
+}
 // The divider takes 12 and 16 cycles for a register; a first guess of 14 bits and a step of Newton's go through the
 // ports of multiplication in a third of that, and err by one unit in the last place (docs/decisions/0010).
 inline Float16 sqrt(const Float16& a) {
@@ -94,6 +98,11 @@ inline Float16::Mask operator>(const Float16& a, const Float16& b) { return a.v 
 inline Float16 max(const Float16& a, const Float16& b) { return a.v > b.v ? a.v : b.v; }
 inline Float16 min(const Float16& a, const Float16& b) { return a.v < b.v ? a.v : b.v; }
 inline Float16 select(const Float16::Mask& c, const Float16& a, const Float16& b) { return c ? a.v : b.v; }
+inline Float16 floor(const Float16& a) {
+  Float16 r;
+  for (int k = 0; k < 16; ++k) r.v[k] = __builtin_floorf(a.v[k]);
+  return r;
+}
 inline Float16 sqrt(const Float16& a) {
   Float16 r;
   for (int k = 0; k < 16; ++k) r.v[k] = __builtin_sqrtf(a.v[k]);
@@ -119,6 +128,43 @@ struct HostLanes {
     return Float16(Float16::Vector{p[0], p[1], p[2], p[3], p[0], p[1], p[2], p[3], p[0], p[1], p[2], p[3], p[0], p[1],
                                    p[2], p[3]});
 #endif
+  }
+  /// Sixteen values side by side, a lane each.
+  static Real load(const float* p) {
+    Float16::Vector v;
+    std::memcpy(&v, p, sizeof(v));
+    return v;
+  }
+  /// Which of the four j a lane has: 0, 1, 2 or 3.
+  static Real number_of_j() {
+    const float j[4] = {0.0f, 1.0f, 2.0f, 3.0f};
+    return load_j(j);
+  }
+  /// What each lane brought, for all of them to look up.
+  struct Exchange {
+    float of_lane[16];
+    float operator[](int lane) const { return of_lane[lane]; }
+    /// The four values of i = `quarter`: each in four lanes side by side, and in every fourth lane.
+    Real spread(int quarter) const { return load_i(of_lane + 4 * quarter); }
+    Real repeated(int quarter) const { return load_j(of_lane + 4 * quarter); }
+  };
+  static Exchange exchange(const Real& a) {
+    Exchange all;
+    std::memcpy(all.of_lane, &a.v, sizeof(all.of_lane));
+    return all;
+  }
+  /// Sum of all lanes, p[j] = sum of the four lanes of j; first over i in the order (0 + 1) + (2 + 3).
+  static float sum(const Real& a) {
+    float of_j[4];
+    store_sum_j(of_j, a);
+    return (of_j[0] + of_j[1]) + (of_j[2] + of_j[3]);
+  }
+  static void store_sum_j(float* p, const Real& a) {
+    typedef float Four __attribute__((vector_size(16)));
+    Four of_i[4];
+    std::memcpy(of_i, &a.v, sizeof(of_i));
+    const Four total = (of_i[0] + of_i[1]) + (of_i[2] + of_i[3]);
+    std::memcpy(p, &total, sizeof(total));
   }
   /// p[i] = sum of the four lanes of i, in the order (0 + 1) + (2 + 3).
   static void store_sum_i(float* p, const Real& a) {

@@ -340,9 +340,10 @@ bool in_solid(const Vec3d& p, const FillSpace& s) {
 
 std::vector<Vec3d> box_points(const Box& box, const FillSpace& s, const SceneParts& parts) {
   std::vector<Vec3d> out;
-  fitted_lattice(box, nearest_counts(box, s.lattice.dp, s.lattice.dimensions), s.lattice.dimensions, [&](const Vec3d& p) {
-    if (!in_solid(p, s) && is_clear(p, parts, s.lattice)) out.push_back(p);
-  });
+  fitted_lattice(box, nearest_counts(box, s.lattice.dp, s.lattice.dimensions), s.lattice.dimensions,
+                 [&](const Vec3d& p) {
+                   if (!in_solid(p, s) && is_clear(p, parts, s.lattice)) out.push_back(p);
+                 });
   return out;
 }
 

@@ -58,7 +58,7 @@ template <class Exec>
 void CoupledSimulation<Exec>::porosity_now(double ahead) {
   if (!grains_in_water()) return;
   coupling_->place(*grains_, ahead);
-  coupling_->update_porosity(fluid_);
+  coupling_->update_porosity(*grains_, fluid_);
   fluid_.pack();
 }
 

@@ -23,6 +23,28 @@ struct DeviceLanes {
 
   __device__ Real load_i(const float* p) const { return p[lane >> 2]; }
   __device__ Real load_j(const float* p) const { return p[lane & 3]; }
+  __device__ Real load(const float* p) const { return p[lane]; }
+  __device__ Real number_of_j() const { return static_cast<float>(lane & 3); }
+  struct Exchange {
+    Real mine;
+    int lane;
+    unsigned half_mask;
+    __device__ float operator[](int from) const {
+      return __shfl_sync(half_mask, mine, from + (half_mask & 0xffffu ? 0 : 16));
+    }
+    __device__ Real spread(int quarter) const { return (*this)[4 * quarter + (lane >> 2)]; }
+    __device__ Real repeated(int quarter) const { return (*this)[4 * quarter + (lane & 3)]; }
+  };
+  __device__ Exchange exchange(Real a) const { return {a, lane, half_mask}; }
+  __device__ float sum(Real a) const {
+    for (int step = 1; step < 16; step *= 2) a += __shfl_xor_sync(half_mask, a, step);
+    return a;
+  }
+  __device__ void store_sum_j(float* p, Real a) const {
+    a += __shfl_xor_sync(half_mask, a, 4);
+    a += __shfl_xor_sync(half_mask, a, 8);
+    if (lane < 4) p[lane] = a;
+  }
   __device__ void store_sum_i(float* p, Real a) const {
     a += __shfl_xor_sync(half_mask, a, 1);
     a += __shfl_xor_sync(half_mask, a, 2);

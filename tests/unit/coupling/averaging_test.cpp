@@ -5,9 +5,11 @@
 
 #include <array>
 #include <cmath>
+#include <random>
 #include <set>
 
 #include "coupling/averaging_nodes.hpp"
+#include "coupling/node_reading.hpp"
 #include "exec/array.hpp"
 
 namespace gdesp::coupling {
@@ -63,6 +65,111 @@ TEST(AveragingSpline, spread_is_that_of_the_kernel) {
   }
 }
 
+// Places as a sorted set, with the records that passes read.
+struct Places {
+  exec::Array<FixedPosition, OpenMP> position;
+  exec::Array<std::uint32_t, OpenMP> id;
+  ClusterSet<OpenMP> set;
+  std::vector<float> record;
+
+  Places(const Domain& domain, double cell, const std::vector<Vec3d>& places) : set(OpenMP(), domain, cell) {
+    std::vector<FixedPosition> fixed;
+    std::vector<std::uint32_t> ids;
+    for (const Vec3d& r : places) {
+      fixed.push_back(domain.fixed(r));
+      ids.push_back(static_cast<std::uint32_t>(ids.size()));
+    }
+    position.assign(fixed);
+    id.assign(ids);
+    exec::Array<float, OpenMP> room;
+    set.build(position, id, static_cast<Index>(places.size()), room);
+    record.assign(static_cast<std::size_t>(set.clusters()) * record_size, padding_coordinate);
+    for (Index slot = 0; slot < set.slots(); ++slot) {
+      const Index source = set.source()[slot], c = slot / exec::cluster_size;
+      if (source < 0) continue;
+      const Vec3f r = domain.relative_to_tile(fixed[static_cast<std::size_t>(source)], set.view().cluster_tile[c]);
+      for (int axis = 0; axis < 3; ++axis)
+        record[static_cast<std::size_t>(record_offset(c) + 4 * axis + slot % exec::cluster_size)] = r[axis];
+    }
+  }
+  PlacesOfSet view() { return {position.data(), id.data(), static_cast<Index>(id.size())}; }
+};
+
+struct FirstRows {
+  static constexpr Index groups = 2;
+  void operator()(const float* n, const Vec3f&, float* out) const {
+    for (int q = 0; q < 8; ++q) out[q] = n[4 * q];
+  }
+};
+
+// Against the sum over all nodes: places about the corner of four tiles, periodic along x, in space and in the plane; each moved
+// by what lists allow since the nodes were chosen.
+TEST(AveragingNodes, particles_read_the_sum_over_the_nodes_around_them) {
+  const double dp = 0.01, skin = 0.19 * 2.85 * dp;
+  const bool periodic[3] = {true, false, false};
+  for (const int dimensions : {3, 2}) {
+    const Domain domain = make_domain({0, 0, 0}, {1.28, 0.5, 1.28}, dp, periodic, dimensions);
+    const NodeLattice lattice(domain, 2.85 * dp);
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    std::vector<Vec3d> places, moved;
+    for (int k = 0; k < 200; ++k) {
+      const double x = 0.15 * uniform(random) + (k % 2 ? 0.64 : 0.0);
+      places.push_back({x < 0.0 ? x + 1.28 : x, dimensions == 2 ? 0.0 : 0.25 + 0.1 * uniform(random),
+                        0.64 + 0.15 * uniform(random)});
+      moved.push_back(places.back() + Vec3d{skin, 0.0, -skin} * (0.5 * uniform(random)));
+    }
+    Places grains(domain, 2.0 * dp, places), water(domain, 3.0 * dp, places);
+    AveragingNodes<OpenMP> nodes(OpenMP(), lattice);
+    nodes.build(grains.set.view(), grains.view(), water.view(), skin);
+
+    constexpr Index rows = 32;
+    std::vector<float> sums(static_cast<std::size_t>(nodes.clusters()) * rows);
+    for (float& value : sums) value = static_cast<float>(uniform(random));
+    nodes.fill_bricks("test", sums.data(), rows, FirstRows{});
+    const AveragingSpline spline = lattice.spline();
+    const ClusterSet<OpenMP>& set = grains.set;
+    for (Index slot = 0; slot < set.slots(); ++slot) {
+      const Index source = set.source()[slot], c = slot / exec::cluster_size;
+      if (source < 0) continue;
+      const Vec3f r =
+          domain.relative_to_tile(domain.fixed(moved[static_cast<std::size_t>(source)]), set.view().cluster_tile[c]);
+      for (int axis = 0; axis < 3; ++axis)
+        grains.record[static_cast<std::size_t>(record_offset(c) + 4 * axis + slot % exec::cluster_size)] = r[axis];
+    }
+    std::vector<float> read(static_cast<std::size_t>(set.slots()) * sums_of_grain);
+    exec::pair_pass(
+        OpenMP(), "test", set.clusters(),
+        GatherAtGrains{{spline, nodes.bricks(), set.view().cluster_tile, grains.record.data()}, read.data()});
+
+    for (Index slot = 0; slot < set.slots(); ++slot) {
+      const Index source = set.source()[slot];
+      float expected[sums_of_grain] = {};
+      for (Index n = 0; source >= 0 && n < nodes.set().slots(); ++n) {
+        const float* at = nodes.records() + record_offset(n / exec::cluster_size) + n % exec::cluster_size;
+        if (at[0] > 0.5f * padding_coordinate) continue;
+        const Vec3<std::int32_t> tile = nodes.set().view().cluster_tile[n / exec::cluster_size];
+        for (const double image : {-1.28, 0.0, 1.28}) {
+          Vec3d d = moved[static_cast<std::size_t>(source)] - Vec3d{image, 0.0, 0.0};
+          for (int axis = 0; axis < 3; ++axis)
+            d[axis] -= tile[axis] * domain.tile_size[axis] + static_cast<double>(at[4 * axis]);
+          AveragingSpline::Gradient<float> gradient;
+          const float S =
+              spline.weight(static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z), gradient);
+          const float* q = sums.data() + rows * (n / exec::cluster_size) + n % exec::cluster_size;
+          const float slope[3] = {gradient.x, gradient.y, gradient.z};
+          for (int k = 0; k < 8; ++k) expected[k] += S * q[4 * k];
+          for (int k = 0; k < 12; ++k) expected[8 + k] += slope[k / 4] * q[4 * (k % 4)];
+        }
+      }
+      for (int k = 0; k < sums_of_grain; ++k)
+        // What one node weighs where it is cut off, which rounding may or may not count.
+        EXPECT_NEAR(read[static_cast<std::size_t>(slot * sums_of_grain + k)], expected[k], k < 8 ? 3e-4 : 5e-2)
+            << dimensions << " " << slot << " " << k;
+    }
+  }
+}
+
 // Nodes are those of the lattice with grains and water in reach: against a search over all, periodic along x.
 TEST(AveragingNodes, are_all_that_are_in_reach_of_both) {
   const bool periodic[3] = {true, false, false};
@@ -72,27 +179,9 @@ TEST(AveragingNodes, are_all_that_are_in_reach_of_both) {
   OpenMP exec;
   const std::vector<Vec3d> grains{{0.004, 0.25, 0.3}, {0.7, 0.01, 0.64}},
       water{{1.26, 0.24, 0.31}, {0.72, 0.03, 0.66}, {0.4, 0.4, 0.4}};
-  const auto make_set = [&](const std::vector<Vec3d>& places, ClusterSet<OpenMP>& set,
-                            exec::Array<FixedPosition, OpenMP>& position, exec::Array<std::uint32_t, OpenMP>& id) {
-    std::vector<FixedPosition> fixed;
-    std::vector<std::uint32_t> ids;
-    for (const Vec3d& r : places) {
-      fixed.push_back(domain.fixed(r));
-      ids.push_back(static_cast<std::uint32_t>(ids.size()));
-    }
-    position.assign(fixed);
-    id.assign(ids);
-    exec::Array<float, OpenMP> room(exec);
-    set = ClusterSet<OpenMP>(exec, domain, 2.0 * dp);
-    set.build(position, id, static_cast<Index>(places.size()), room);
-    return PlacesOfSet{position.data(), id.data(), static_cast<Index>(places.size())};
-  };
-  ClusterSet<OpenMP> grain_set, water_set;
-  exec::Array<FixedPosition, OpenMP> grain_position(exec), water_position(exec);
-  exec::Array<std::uint32_t, OpenMP> grain_id(exec), water_id(exec);
+  Places of_grains(domain, 2.0 * dp, grains), of_water(domain, 2.0 * dp, water);
   AveragingNodes<OpenMP> nodes(exec, lattice);
-  const PlacesOfSet of_grains = make_set(grains, grain_set, grain_position, grain_id);
-  nodes.build(grain_set.view(), of_grains, make_set(water, water_set, water_position, water_id), 0.0);
+  nodes.build(of_grains.set.view(), of_grains.view(), of_water.view(), 0.0);
 
   std::set<std::array<int, 3>> chosen;
   for (Index s = 0; s < nodes.set().slots(); ++s) {
