@@ -117,8 +117,14 @@ struct HostLanes {
 
   /// p[i] of the four i particles, each in its four lanes.
   static Real load_i(const float* p) {
+#if defined(__AVX512F__)
+    // Left to itself the compiler puts the lanes together in memory and waits for them there.
+    const __m512i of_lane = _mm512_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3);
+    return lanes_of(_mm512_permutevar_ps(_mm512_broadcast_f32x4(_mm_loadu_ps(p)), of_lane));
+#else
     return Float16(Float16::Vector{p[0], p[0], p[0], p[0], p[1], p[1], p[1], p[1], p[2], p[2], p[2], p[2], p[3], p[3],
                                    p[3], p[3]});
+#endif
   }
   /// p[j] of the four j particles, in every fourth lane.
   static Real load_j(const float* p) {
