@@ -7,6 +7,7 @@
 #include <ctime>
 
 #include "core/error.hpp"
+#include "exec/profile.hpp"
 #include "particles/largest_distance.hpp"
 #include "scene_summary.hpp"
 #include "simulation/simulation.hpp"
@@ -93,13 +94,39 @@ SimulationInput small_mixture(const SimulationInput& scene, const SimulationInpu
   return input;
 }
 
-/// s of wall time a step, of processor time (on a device: of wall time), and the steps of the grains in it.
+/// Measures loops by name while it lives.
+class Profiling {
+ public:
+  Profiling() {
+    exec::reset_profile();
+    exec::set_profiling(true);
+  }
+  ~Profiling() {
+    exec::set_profiling(false);
+    exec::reset_profile();
+  }
+  Profiling(const Profiling&) = delete;
+  Profiling& operator=(const Profiling&) = delete;
+  /// s so far, of the loops of the coupling.
+  static double of_coupling() {
+    double sum = 0.0;
+    for (const exec::ProfileRow& row : exec::profile()) {
+      for (const char* name : {"coupling::", "nodes::", "bricks::"})
+        if (row.name.rfind(name, 0) == 0) sum += row.seconds;
+    }
+    return sum;
+  }
+};
+
+/// s of wall time a step, the loops of the coupling in it (on the processor; a device is not waited for after each loop), s of
+/// processor time (on a device: of wall time), and the steps of the grains in it.
 struct StepTime {
-  double seconds = INFINITY, processor_seconds = INFINITY, grain_steps = 0.0;
+  double seconds = INFINITY, coupling_seconds = INFINITY, processor_seconds = INFINITY, grain_steps = 0.0;
 };
 
 /// The first step is not counted: it touches the memory for the first time.
-StepTime time_of_step(const SimulationInput& input, const std::string& device, int steps) {
+StepTime time_of_step(const SimulationInput& input, const std::string& device, int steps, int repeats = 2) {
+  const Profiling profiling;
   const auto simulation = make_simulation(input, device);
   StepTime least;
   try {
@@ -108,17 +135,19 @@ StepTime time_of_step(const SimulationInput& input, const std::string& device, i
     if (problem.kind() != ErrorKind::numerical) throw;
     return least;
   }
-  for (int repeat = 0; repeat < 2; ++repeat) {  // the better of two: others may use the machine
+  for (int repeat = 0; repeat < repeats; ++repeat) {  // the best of them: others may use the machine
     const auto begin = std::chrono::steady_clock::now();
     const std::clock_t processor_begin = std::clock();
+    const double coupling_begin = Profiling::of_coupling();
     for (int k = 0; k < steps; ++k) simulation->step(1.0e30);
     if (device != "cpu") simulation->diagnostics();  // waits for the device
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     const double processor = static_cast<double>(std::clock() - processor_begin) / CLOCKS_PER_SEC;
     least.seconds = std::min(least.seconds, seconds / steps);
+    least.coupling_seconds = std::min(least.coupling_seconds, (Profiling::of_coupling() - coupling_begin) / steps);
     least.processor_seconds = std::min(least.processor_seconds, (device == "cpu" ? processor : seconds) / steps);
   }
-  least.grain_steps = static_cast<double>(simulation->diagnostics().grain_substeps) / (1 + 2 * steps);
+  least.grain_steps = static_cast<double>(simulation->diagnostics().grain_substeps) / (1 + repeats * steps);
   return least;
 }
 
@@ -148,7 +177,9 @@ StepCosts measure_step_costs(const SimulationInput& scene, const std::string& de
       const SimulationInput mixture = small_mixture(scene, tank, side * p.dp, grains_a_side);
       const StepTime both = time_of_step(mixture, device, 8);
       const auto n = static_cast<double>(mixture.grains.position.size());
-      costs.coupling = std::max(0.0, (both.seconds - tank_seconds) / n - costs.grain * both.grain_steps);
+      costs.coupling = device == "cpu"
+                           ? both.coupling_seconds / n
+                           : std::max(0.0, (both.seconds - tank_seconds) / n - costs.grain * both.grain_steps);
     }
   }
   return costs;
@@ -163,7 +194,9 @@ double growth_of_cost(const SimulationInput& scene, const std::string& device, d
     const SimulationInput tank = small_tank(scene, std::max(side, 4));
     const double work = static_cast<double>(tank.fluid.position.size()) +
                         wall_share * static_cast<double>(tank.boundary.position.size());
-    return time_of_step(tank, device, steps).processor_seconds / work;
+    const int repeats =
+        std::clamp(static_cast<int>(1.0e5 / work), 2, 12);  // small tanks are soon done, and soon disturbed
+    return time_of_step(tank, device, steps, repeats).processor_seconds / work;
   };
   return cost(many) / cost(few);
 }

@@ -17,8 +17,8 @@ struct StepCosts {
   double coupling = 0.0;  ///< per grain and step of the fluid, while it is in water
 };
 
-/// Walls are taken in proportion to water: 0.3 a wall particle (two of its passes are light). Coupling is what the tank takes more
-/// with grains in its water, contacts not counted.
+/// Walls are taken in proportion to water: 0.3 a wall particle (two of its passes are light). Coupling is what its loops take in the
+/// tank with grains in its water; on a device, where loops are not waited for, what that tank takes more, contacts not counted.
 StepCosts measure_step_costs(const SimulationInput& scene, const std::string& device);
 
 /// What a water particle costs a step among `many`, over what it costs among `few`: more data than the caches hold take longer.
