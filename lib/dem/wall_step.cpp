@@ -169,6 +169,7 @@ struct WallStep {
       if (!(distance > 1.0e-6f * radius)) return false;
       n = (1.0f / distance) * gap;
     }
+    if (!(distance < radius)) return false;  // the root is rounded otherwise than its square was
     touch.n = body == 0 ? n : to_world(pose, n);
     if (distance <= 0.0f && !came_from_front(history, body, touch.n)) return false;
     touch.overlap = radius - distance;

@@ -75,6 +75,24 @@ TEST_F(WallTest, OneContactOnFaceSeamFanAndCorner) {
   EXPECT_EQ(corner.sums().wall_contacts, 3);
 }
 
+// The centre as far from an edge as the radius, to the last bits: whether it touches is a matter of rounding, but there is no root of
+// a negative overlap.
+TEST_F(WallTest, GrainsThatJustReachAnEdgeFeelNothingOrLittle) {
+  const TriangleTable box = block({0.4, 0.0, 0.2}, {0.6, 1.0, 0.4});
+  Random random(3);
+  for (int trial = 0; trial < 300; ++trial) {
+    GrainTable grains;
+    for (int k = 0; k < 39; ++k) {
+      const double angle = 1.5707 * random(), distance = 0.01 * (1.0 + 4.0e-7 * (random() - 0.5));
+      add_grain(grains, {0.6 + distance * std::sin(angle), 0.013 + 0.025 * k, 0.4 + distance * std::cos(angle)}, 0.02,
+                2500);
+    }
+    Grains system({}, metre(), grains, hard(0.5, 0.5), box, {});
+    ASSERT_NO_THROW(system.advance(1.0e-6, 1));
+    EXPECT_LT(system.largest_speed(), 1.0e-6);
+  }
+}
+
 TEST_F(WallTest, RollsOverSeamsWithoutAKick) {
   // Fine mesh (half a grain), rolling without slip in an odd direction from the resting height: nothing may change.
   ContactParameters p = hard(0.5, 0.5);
