@@ -160,11 +160,10 @@ void AveragingNodes<Exec>::mark_near(const PlacesOfSet& places, Index cells, int
   near.resize_discard(static_cast<std::size_t>(cells));
   occupied_.fill_bytes(0);
   near.fill_bytes(0);
-  const NodeCells numbering{lattice_, wanted_.data(), storage_.data()};
   exec::parallel_for(exec_, "nodes::occupied", places.slots,
-                     MarkOccupied{numbering, places.position, places.id, occupied_.data()});
+                     MarkOccupied{node_cells(), places.position, places.id, occupied_.data()});
   exec::parallel_for(exec_, "nodes::near", cells,
-                     MarkNear{numbering, tile_.data(), occupied_.data(), reach, near.data()});
+                     MarkNear{node_cells(), tile_.data(), occupied_.data(), reach, near.data()});
 }
 
 template <class Exec>
@@ -195,19 +194,12 @@ void AveragingNodes<Exec>::build(const CellGridView& grain_grid, const PlacesOfS
   id_.resize_discard(static_cast<std::size_t>(nodes));
   node_of_cell_.resize_discard(static_cast<std::size_t>(cells));
   exec::parallel_for(exec_, "nodes::write", rows,
-                     WriteNodes{{lattice_, wanted_.data(), storage_.data()},
-                                tile_.data(),
-                                near_grains_.data(),
-                                near_water_.data(),
-                                row_begin_.data(),
-                                domain.fixed({}).y,
-                                position_.data(),
-                                id_.data(),
-                                node_of_cell_.data()});
+                     WriteNodes{node_cells(), tile_.data(), near_grains_.data(), near_water_.data(), row_begin_.data(),
+                                domain.fixed({}).y, position_.data(), id_.data(), node_of_cell_.data()});
   set_.build(position_, id_, nodes, room_);
   slot_of_node_.resize_discard(static_cast<std::size_t>(nodes));
   exec::parallel_for(exec_, "nodes::order", set_.slots(), InvertOrder{set_.source(), slot_of_node_.data()});
-  bricks_.build({lattice_, wanted_.data(), storage_.data()}, tile_, used, node_of_cell_, slot_of_node_);
+  bricks_.build(node_cells(), tile_, used, node_of_cell_, slot_of_node_);
   record_.resize_discard(static_cast<std::size_t>(clusters()) * record_size);
   exec::parallel_for(exec_, "nodes::pack", set_.slots(),
                      PackNodes{domain, set_.view().cluster_tile, position_.data(), set_.source(), record_.data()});

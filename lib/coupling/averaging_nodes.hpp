@@ -31,7 +31,7 @@ class AveragingNodes {
   void fill_bricks(const char* name, const float* sums, Index rows, const Recipe& recipe) {
     bricks_.fill(name, sums, rows, recipe);
   }
-  NodeBricksView bricks() const { return bricks_.view({lattice_, wanted_.data(), storage_.data()}); }
+  NodeBricksView bricks() const { return bricks_.view(node_cells()); }
 
   /// The members that a checkpoint keeps (exec/state_archive.hpp).
   template <class Archive>
@@ -40,6 +40,7 @@ class AveragingNodes {
   }
 
  private:
+  NodeCells node_cells() const { return {lattice_, wanted_.data(), storage_.data()}; }
   void mark_near(const PlacesOfSet& places, Index cells, int reach, Array<std::uint8_t, Exec>& near);
 
   Exec exec_;

@@ -101,8 +101,8 @@ struct NodeReader {
     const Real wy = y.weight.spread(i), wz = z.weight.repeated(i);
     const auto within =
                    lanes.exchange(Real(spline_reach * spline_reach) - y.distance2.spread(i) - z.distance2.repeated(i)),
-               weight = lanes.exchange(wy * wz), slope_y = lanes.exchange(y.slope.spread(i) * wz),
-               slope_z = lanes.exchange(wy * z.slope.repeated(i));
+               weight = lanes.exchange(wy * wz), slope_y = lanes.exchange(gradient ? y.slope.spread(i) * wz : zero),
+               slope_z = lanes.exchange(gradient ? wy * z.slope.repeated(i) : zero);
     const Real distance2 = x.distance2.spread(i);
     NodeSums<Real, groups> sums;
     for (int g = 0; g < groups; ++g) sums.value[g] = zero;
@@ -135,6 +135,11 @@ struct NodeReader {
   }
 };
 
+// Where particle i of cluster c has its results, `stride` floats a slot.
+GDESP_HD inline float* of_slot(float* first, Index stride, Index c, int i) {
+  return first + static_cast<std::int64_t>(stride) * (exec::cluster_size * c + i);
+}
+
 // The four quantities of group 0 at each particle, by slot.
 struct ReadNodes {
   NodeReader nodes;
@@ -143,29 +148,27 @@ struct ReadNodes {
   template <class Lanes>
   GDESP_HD void operator()(Index c, const Lanes& lanes) const {
     using Real = typename Lanes::Real;
-    const auto at = [&](int i) { return result + static_cast<std::int64_t>(stride) * (exec::cluster_size * c + i); };
+    const auto at = [&](int i) { return of_slot(result, stride, c, i); };
     nodes.for_each<1, false>(
         c, lanes, [&](int i, const NodeSums<Real, 1>& sums) { lanes.store_sum_j(at(i), sums.value[0]); },
         [&](int i) { lanes.store_sum_j(at(i), Real(0.0f)); });
   }
 };
 
-// All that a grain asks of the water: two groups of values and the gradients of the first, by slot (GrainSums).
+// All that a grain asks of the water: two groups of values and the gradients of the first, by slot (GrainSum).
 struct GatherAtGrains {
   NodeReader nodes;
   float* result;
   template <class Lanes>
   GDESP_HD void operator()(Index c, const Lanes& lanes) const {
     using Real = typename Lanes::Real;
-    const auto at = [&](int i) {
-      return result + static_cast<std::int64_t>(sums_of_grain) * (exec::cluster_size * c + i);
-    };
+    const auto at = [&](int i) { return of_slot(result, sums_of_grain, c, i); };
     nodes.for_each<2, true>(
         c, lanes,
         [&](int i, const NodeSums<Real, 2>& sums) {
           float* to = at(i);
           for (int g = 0; g < 2; ++g) lanes.store_sum_j(to + 4 * g, sums.value[g]);
-          for (int a = 0; a < 3; ++a) lanes.store_sum_j(to + 8 + 4 * a, sums.gradient[a]);
+          for (int a = 0; a < 3; ++a) lanes.store_sum_j(to + sum_gradient + 4 * a, sums.gradient[a]);
         },
         [&](int i) {
           for (int k = 0; k < sums_of_grain; k += 4) lanes.store_sum_j(at(i) + k, Real(0.0f));
@@ -199,7 +202,7 @@ struct MixturePressure {
         [&](int i, const NodeSums<Real, 1>& sums) {
           float* record = fluid + record_offset(c) + i;
           const Index s = exec::cluster_size * c + i;
-          const float head = rho_g.x * record[0] + rho_g.y * record[4] + rho_g.z * record[8];
+          const float head = dot(rho_g, vector_at(record));
           const float of_grains = lanes.sum(sums.value[0] * of_quantity(lanes, head, 1.0f, 0.0f, 0.0f));
           const float ratio = density ? 1.0f + density[s] : 1.0f;
           const float own = porosity[s] * water[water_rows * static_cast<std::int64_t>(c) + i + water_pressure];
@@ -218,13 +221,13 @@ struct ReactionOnFluid {
   template <class Lanes>
   GDESP_HD void operator()(Index c, const Lanes& lanes) const {
     using Real = typename Lanes::Real;
-    const auto at = [&](int i) { return reaction + 4 * static_cast<std::int64_t>(exec::cluster_size * c + i); };
+    const auto at = [&](int i) { return of_slot(reaction, 4, c, i); };
     nodes.for_each<3, false>(
         c, lanes,
         [&](int i, const NodeSums<Real, 3>& sums) {
           const float* r = nodes.record + record_offset(c) + i;
           const float* w = water + water_rows * static_cast<std::int64_t>(c) + i;
-          const float head = rho_g.x * r[0] + rho_g.y * r[4] + rho_g.z * r[8];
+          const float head = dot(rho_g, vector_at(r));
           const Real of = of_quantity(lanes, 1.0f, w[water_pressure] - head, -w[water_boost], 0.0f);
           float f[3];
           for (int a = 0; a < 3; ++a) f[a] = lanes.sum(sums.value[a] * of);
