@@ -40,9 +40,10 @@ struct NumberTiles {
   }
 };
 
+template <class Position>
 struct MarkOccupied {
   NodeCells cells;
-  const FixedPosition* position;
+  Position position;
   const std::uint32_t* id;
   std::uint8_t* occupied;
   GDESP_HD void operator()(Index s) const {
@@ -154,21 +155,22 @@ AveragingNodes<Exec>::AveragingNodes(const Exec& exec, const NodeLattice& lattic
       id_(exec), record_(exec), room_(exec) {}
 
 template <class Exec>
-void AveragingNodes<Exec>::mark_near(const PlacesOfSet& places, Index cells, int reach,
+template <class Position>
+void AveragingNodes<Exec>::mark_near(const PlacesOfSet<Position>& places, Index cells, int reach,
                                      Array<std::uint8_t, Exec>& near) {
   occupied_.resize_discard(static_cast<std::size_t>(cells));
   near.resize_discard(static_cast<std::size_t>(cells));
   occupied_.fill_bytes(0);
   near.fill_bytes(0);
   exec::parallel_for(exec_, "nodes::occupied", places.slots,
-                     MarkOccupied{node_cells(), places.position, places.id, occupied_.data()});
+                     MarkOccupied<Position>{node_cells(), places.position, places.id, occupied_.data()});
   exec::parallel_for(exec_, "nodes::near", cells,
                      MarkNear{node_cells(), tile_.data(), occupied_.data(), reach, near.data()});
 }
 
 template <class Exec>
-void AveragingNodes<Exec>::build(const CellGridView& grain_grid, const PlacesOfSet& grains, const PlacesOfSet& water,
-                                 double skin) {
+void AveragingNodes<Exec>::build(const CellGridView& grain_grid, const PlacesOfSet<dem::GrainPlaces>& grains,
+                                 const PlacesOfSet<const FixedPosition*>& water, double skin) {
   const Domain& domain = lattice_.domain;
   const Index tiles = domain.tiles.x * domain.tiles.y * domain.tiles.z;
   wanted_.resize_discard(static_cast<std::size_t>(tiles));

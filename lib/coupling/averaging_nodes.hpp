@@ -4,13 +4,15 @@
 #pragma once
 
 #include "coupling/node_bricks.hpp"
+#include "dem/grain_views.hpp"
 #include "neighbors/cluster_list.hpp"
 
 namespace gdesp::coupling {
 
 /// Particles that nodes are chosen for.
+template <class Position>
 struct PlacesOfSet {
-  const FixedPosition* position;
+  Position position;  ///< position[slot]
   const std::uint32_t* id;
   Index slots;
 };
@@ -21,7 +23,8 @@ class AveragingNodes {
   AveragingNodes(const Exec& exec, const NodeLattice& lattice);
 
   /// Chooses the nodes: in reach of grains and of water, while they move less than `skin` (m). `grain_grid`: of the grains' set.
-  void build(const CellGridView& grain_grid, const PlacesOfSet& grains, const PlacesOfSet& water, double skin);
+  void build(const CellGridView& grain_grid, const PlacesOfSet<dem::GrainPlaces>& grains,
+             const PlacesOfSet<const FixedPosition*>& water, double skin);
 
   const ClusterSet<Exec>& set() const { return set_; }
   Index clusters() const { return set_.clusters(); }
@@ -41,7 +44,8 @@ class AveragingNodes {
 
  private:
   NodeCells node_cells() const { return {lattice_, wanted_.data(), storage_.data()}; }
-  void mark_near(const PlacesOfSet& places, Index cells, int reach, Array<std::uint8_t, Exec>& near);
+  template <class Position>
+  void mark_near(const PlacesOfSet<Position>& places, Index cells, int reach, Array<std::uint8_t, Exec>& near);
 
   Exec exec_;
   NodeLattice lattice_;

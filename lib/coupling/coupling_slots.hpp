@@ -33,8 +33,7 @@ GDESP_HD inline float grain_volume(float R, bool discs) {
 struct PackGrains {
   Domain domain;
   const Vec3<std::int32_t>* cluster_tile;
-  const FixedPosition* position;
-  const dem::GrainRecord* grain;
+  dem::GrainPlaces grains;
   const std::uint32_t* id;
   bool discs;
   float* record;
@@ -45,14 +44,15 @@ struct PackGrains {
     const Index c = s / exec::cluster_size;
     float* r = record + record_offset(c) + s % exec::cluster_size;
     const bool real_grain = id[s] != no_particle;
-    const Vec3f x = real_grain ? domain.relative_to_tile(position[s], cluster_tile[c])
+    const Vec3f x = real_grain ? domain.relative_to_tile(grains[s], cluster_tile[c])
                                : Vec3f{padding_coordinate, padding_coordinate, padding_coordinate};
-    const float R = real_grain ? grain[s].radius : 0.0f;
-    const bool moves = real_grain && grain[s].mobility > 0.0f;
+    const dem::GrainRecord& own = grains.record[s];
+    const float R = real_grain ? own.radius : 0.0f;
+    const bool moves = real_grain && own.mobility > 0.0f;
     const float dt = moves ? ahead : 0.0f;
-    r[0] = x.x + grain[s].vx * dt;
-    r[4] = x.y + grain[s].vy * dt;
-    r[8] = x.z + grain[s].vz * dt;
+    r[0] = x.x + own.vx * dt;
+    r[4] = x.y + own.vy * dt;
+    r[8] = x.z + own.vz * dt;
     r[row_volume] = grain_volume(R, discs);
     r[16] = r[20] = r[24] = r[row_offset] = 0.0f;
     velocity_before[s] = velocity[s];

@@ -37,7 +37,7 @@ void GrainFluidCoupling<Exec>::rebuild(const dem::GrainSystem<Exec>& grains, con
   water_.resize_discard(water_clusters * water_rows);
   place(grains, 0.0);
   const CellGridView fluid_grid = fluid.set().view(), grain_grid = grains.set().view();
-  nodes_.build(grain_grid, {grains.positions(), grains.ids(), grains.slots()},
+  nodes_.build(grain_grid, {grains.places(), grains.ids(), grains.slots()},
                {fluid.positions(), fluid.ids(), fluid.slots()}, skin);
   node_sums_.resize_discard(static_cast<std::size_t>(nodes_.clusters()) * node_rows);
   const auto cutoff = static_cast<float>(lattice_.reach() + skin);
@@ -49,10 +49,10 @@ void GrainFluidCoupling<Exec>::rebuild(const dem::GrainSystem<Exec>& grains, con
 
 template <class Exec>
 void GrainFluidCoupling<Exec>::place(const dem::GrainSystem<Exec>& grains, double ahead) {
-  exec::parallel_for(exec_, "coupling::place", grains.slots(),
-                     PackGrains{domain_, grains.set().view().cluster_tile, grains.positions(), grains.records(),
-                                grains.ids(), law_.dimensions == 2, record_.data(), velocity_before_.data(),
-                                grains.velocities(), static_cast<float>(ahead)});
+  exec::parallel_for(
+      exec_, "coupling::place", grains.slots(),
+      PackGrains{domain_, grains.set().view().cluster_tile, grains.places(), grains.ids(), law_.dimensions == 2,
+                 record_.data(), velocity_before_.data(), grains.velocities(), static_cast<float>(ahead)});
 }
 
 template <class Exec>

@@ -297,8 +297,7 @@ struct BuildRows {
 
 template <class Exec>
 ContactRows<Exec>::ContactRows(const Exec& exec, bool rolling)
-    : exec_(exec), rolling_on_(rolling), range_(exec), rows_(exec), rolling_(exec), kept_begin_(exec),
-      overflow_used_(exec) {
+    : exec_(exec), rolling_on_(rolling), range_(exec), rows_(exec), rolling_(exec), overflow_used_(exec) {
   overflow_used_.resize_discard(1);
 }
 
@@ -309,19 +308,22 @@ void ContactRows<Exec>::build(const ClusterSet<Exec>& set, const Index* source, 
   const Index slots = set.slots(), old_slots = first ? 0 : static_cast<Index>(range_.size());
   const CellGridView grid = set.view();
   const OldRows old{range_.data(), rows_.data(), rolling_on_ ? rolling_.data() : nullptr};
-  Index kept_count = 0;
-  if (!first) {
-    Index* count = exec::room_for<Index>(room, static_cast<std::size_t>(old_slots));
-    kept_begin_.resize_discard(static_cast<std::size_t>(old_slots) + 1);
+  // The room holds, by old slot, the number of the first contact kept; places and radii by cluster; the contacts kept.
+  const std::size_t numbers = (static_cast<std::size_t>(old_slots) / 16 + 1) * 16;  // what follows begins at 64 bytes
+  Index* begin = exec::room_for<Index>(room, 2 * numbers);
+  const auto number_kept = [&] {
+    Index* count = begin + numbers;  // where places will be
     exec::parallel_for(exec_, "dem::contact_rows", old_slots, CountKept{old, count});
-    kept_count = exec::exclusive_scan(exec_, "dem::contact_rows", count, kept_begin_.data(), old_slots);
-  }
-  // Places and radii by cluster, then the contacts that were.
-  float* search = exec::room_for<float>(
-      room, 4 * static_cast<std::size_t>(slots) + (rolling_on_ ? 7 : 4) * static_cast<std::size_t>(kept_count));
-  KeptContact* kept = reinterpret_cast<KeptContact*>(search + 4 * static_cast<std::size_t>(slots));
+    return exec::exclusive_scan(exec_, "dem::contact_rows", count, begin, old_slots);
+  };
+  const Index kept_count = number_kept();
+  const std::size_t before = room.size(), places = 4 * static_cast<std::size_t>(slots);
+  begin = exec::room_for<Index>(room, numbers + places + (rolling_on_ ? 7 : 4) * static_cast<std::size_t>(kept_count));
+  if (room.size() != before) number_kept();  // it grew, and forgot
+  float* search = reinterpret_cast<float*>(begin + numbers);
+  KeptContact* kept = reinterpret_cast<KeptContact*>(search + places);
   Vec3f* kept_rolling = reinterpret_cast<Vec3f*>(kept + kept_count);
-  exec::parallel_for(exec_, "dem::contact_rows", old_slots, KeepHistory{old, kept_begin_.data(), kept, kept_rolling});
+  exec::parallel_for(exec_, "dem::contact_rows", old_slots, KeepHistory{old, begin, kept, kept_rolling});
   exec::parallel_for(exec_, "dem::contact_rows", slots, PackSearch{grid, records, position, search});
   overflow_capacity_ = overflow_capacity_ > slots / 8 ? overflow_capacity_ : slots / 8 + 16;
   while (true) {
@@ -331,12 +333,12 @@ void ContactRows<Exec>::build(const ClusterSet<Exec>& set, const Index* source, 
     if (rolling_on_) rolling_.resize_discard(total);
     overflow_used_.fill_bytes(0);
     exec::pair_pass(exec_, "dem::contact_rows", set.clusters(),
-                    BuildRows{grid, search, records, source, reach, slots, first ? nullptr : kept_begin_.data(), kept,
-                              kept_rolling, range_.data(), rows_.data(), rolling_on_ ? rolling_.data() : nullptr,
+                    BuildRows{grid, search, records, source, reach, slots, first ? nullptr : begin, kept, kept_rolling,
+                              range_.data(), rows_.data(), rolling_on_ ? rolling_.data() : nullptr,
                               overflow_used_.data(), overflow_capacity_});
     const Index used = static_cast<Index>(overflow_used_.read(0));
     if (used <= overflow_capacity_) break;
-    overflow_capacity_ = used + used / 8;
+    overflow_capacity_ = used + used / 32;
   }
 }
 

@@ -47,7 +47,6 @@ class ContactRows {
   Array<RowRange, Exec> range_;
   Array<ContactRow, Exec> rows_;
   Array<RollingRow, Exec> rolling_;
-  Array<Index, Exec> kept_begin_;  ///< by old slot: first of its contacts kept in the room while lists are made
   Array<std::uint32_t, Exec> overflow_used_;
   Index overflow_capacity_ = 0;
 };

@@ -40,18 +40,6 @@ SavedRows in_order(const std::vector<RowRange>& range, const std::vector<Contact
   return ordered;
 }
 
-struct StartPositions {
-  const FixedPosition* now;
-  const Vec3<std::int32_t>* start;
-  FixedPosition* out;
-  GDESP_HD void operator()(Index i) const {
-    const FixedPosition& p = now[i];
-    out[i] = {p.x + fraction_difference(start[i].x, static_cast<std::int32_t>(Domain::fraction_of(p.x))),
-              p.y + fraction_difference(start[i].y, static_cast<std::int32_t>(Domain::fraction_of(p.y))),
-              p.z + fraction_difference(start[i].z, static_cast<std::int32_t>(Domain::fraction_of(p.z)))};
-  }
-};
-
 }  // namespace
 
 template <class Exec>
@@ -63,7 +51,7 @@ void GrainSystem<Exec>::archive(Archive& a) {
   a(time_, half_before_, drift_, odometer_, skin_, moved2_, speed2_, overlap_, must_rebuild);
   a(substeps_, rebuilds_, listed_at_, slots_, lost_);
   must_rebuild_ = must_rebuild != 0;
-  a(set_, position_, start_, id_, group_, now_, velocity_, spin_, quiet_until_);
+  a(set_, position_, id_, group_, now_, velocity_, spin_, quiet_until_);
   SavedRows rows;
   std::vector<WallHistory> wall_history;
   if constexpr (saving) {
@@ -85,10 +73,6 @@ template <class Exec>
 void GrainSystem<Exec>::restore_lists(const std::vector<RowRange>& range, const std::vector<ContactRow>& rows,
                                       const std::vector<RollingRow>& rolling,
                                       const std::vector<WallHistory>& wall_history) {
-  Array<FixedPosition, Exec> listed_position(exec_);
-  listed_position.resize_discard(static_cast<std::size_t>(slots_));
-  exec::parallel_for(exec_, "dem::restore", slots_,
-                     StartPositions{position_.data(), start_.data(), listed_position.data()});
   contacts_.ranges().assign(range);
   contacts_.rows().assign(rows);
   contacts_.rolling_rows().assign(rolling);
@@ -97,7 +81,7 @@ void GrainSystem<Exec>::restore_lists(const std::vector<RowRange>& range, const 
     // Asks every grain, as the lists were made from readings that are gone; the readings saved are then put back.
     const std::vector<float> quiet_until = quiet_until_.to_host();
     quiet_until_.fill_bytes(0);
-    walls_.build(set_, listed_position, now_.data(), listed_poses_, wall_reach(), false, next_);
+    walls_.build(set_, position_, now_.data(), listed_poses_, wall_reach(), false, next_);
     quiet_until_.assign(quiet_until);
   }
   next_.assign(now_.to_host());

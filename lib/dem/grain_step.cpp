@@ -190,7 +190,7 @@ struct GrainStep {
       exec::store4(next + 8, exec::with_last_of(surface, Float4{1.0f, 1.0f, 1.0f, 1.0f}));
       exec::store4(next + 12, exec::with_last_of(wanted - whole, exec::load4(record + 12)));
     }
-    const Float4 moved = exec::value(place - exec::load3(v.start[i])) * unit;
+    const Float4 moved = exec::value(place - exec::load3(GrainPlaces{v.listed, v.now}.listed_bits(i))) * unit;
     const float speed2 = exec::dot3(velocity, velocity);
     return {{exec::dot3(moved, moved), speed2, overlap, speed2 + exec::dot3(surface, surface) < 1.0e12f ? 0.0f : 1.0f}};
   }

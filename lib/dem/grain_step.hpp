@@ -14,10 +14,10 @@ struct GrainStepView {
   PositionUnit unit;
   const GrainRecord* now;  ///< slots + 1 records
   GrainRecord* next;
-  const Vec3<std::int32_t>* start;  ///< fraction bits at the last rebuild
-  Vec3f* velocity;                  ///< m/s, at half steps
-  Vec3f* spin;                      ///< rad/s, at half steps
-  const WallForce* walls;           ///< by GrainRecord::wall
+  const FixedPosition* listed;  ///< when the lists were made
+  Vec3f* velocity;              ///< m/s, at half steps
+  Vec3f* spin;                  ///< rad/s, at half steps
+  const WallForce* walls;       ///< by GrainRecord::wall
   FluidOnGrains fluid;
   Vec3f gravity;                ///< m/s2
   float inertia_factor = 0.4f;  ///< I / (m R^2)

@@ -36,7 +36,7 @@ struct GrainTerms {
   PositionUnit unit;
   ContactRowsView rows;
   const GrainRecord* records;
-  const FixedPosition* position;
+  GrainPlaces position;
   const Vec3f* velocity;
   const WallHistory* walls;
   Vec3d gravity;
@@ -81,16 +81,9 @@ struct GrainTerms {
 template <class Exec>
 template <class Law>
 GrainSums GrainSystem<Exec>::sums_with(const ContactLaws<Law>& pair) {
-  const GrainTerms<Law> terms{pair,
-                              domain_,
-                              position_unit(domain_),
-                              contacts_.view(),
-                              now_.data(),
-                              position_.data(),
-                              velocity_.data(),
-                              walls_.history().data(),
-                              gravity_,
-                              inertia_factor(domain_.dimensions)};
+  const GrainTerms<Law> terms{
+      pair,     domain_,          position_unit(domain_),  contacts_.view(), now_.data(),
+      places(), velocity_.data(), walls_.history().data(), gravity_,         inertia_factor(domain_.dimensions)};
   return exec::reduce(exec_, "dem::sums", slots_, GrainSums{}, terms, AddSums{});
 }
 
@@ -105,7 +98,7 @@ GrainSums GrainSystem<Exec>::sums() {
 
 template <class Exec>
 GrainTable GrainSystem<Exec>::table() const {
-  const std::vector<FixedPosition> position = position_.to_host();
+  const std::vector<FixedPosition> listed = position_.to_host();
   const std::vector<GrainRecord> record = now_.to_host();
   const std::vector<std::uint32_t> id = id_.to_host();
   const std::vector<std::int32_t> group = group_.to_host();
@@ -114,11 +107,12 @@ GrainTable GrainSystem<Exec>::table() const {
     if (id[s] != no_particle) order.push_back(s);
   }
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return id[a] < id[b]; });
+  const GrainPlaces places{listed.data(), record.data()};
   GrainTable table;
   for (std::size_t s : order) {
     const GrainRecord& r = record[s];
     const float diameter = 2.0f * r.radius;
-    table.position.push_back(domain_.metres(position[s]));
+    table.position.push_back(domain_.metres(places[static_cast<Index>(s)]));
     table.diameter.push_back(diameter);
     table.density.push_back(static_cast<float>(r.mass / grain_mass(diameter, 1.0, domain_.dimensions)));
     table.velocity.push_back({r.vx, r.vy, r.vz});

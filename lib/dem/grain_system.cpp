@@ -41,24 +41,12 @@ struct CopyRecords {
   GDESP_HD void operator()(Index slot) const { to[slot] = from[slot]; }
 };
 
-// The position follows the fraction bits of the record, by the short way round.
-struct FollowRecord {
-  const GrainRecord* record;
-  FixedPosition* position;
+struct FollowRecords {
+  GrainPlaces grains;
+  FixedPosition* listed;
   GDESP_HD void operator()(Index i) const {
-    const GrainRecord& r = record[i];
-    if (r.radius < 0.0f) return;
-    FixedPosition& p = position[i];
-    p.x += fraction_difference(r.x, static_cast<std::int32_t>(Domain::fraction_of(p.x)));
-    p.y += fraction_difference(r.y, static_cast<std::int32_t>(Domain::fraction_of(p.y)));
-    p.z += fraction_difference(r.z, static_cast<std::int32_t>(Domain::fraction_of(p.z)));
+    if (grains.record[i].radius > 0.0f) listed[i] = grains[i];
   }
-};
-
-struct NoteStart {
-  const GrainRecord* record;
-  Vec3<std::int32_t>* start;
-  GDESP_HD void operator()(Index i) const { start[i] = {record[i].x, record[i].y, record[i].z}; }
 };
 // After sorting: positions inside the periods.
 struct WrapGrains {
@@ -87,7 +75,7 @@ struct Release {
 };
 
 // Of the mean diameter.
-constexpr double first_skin = 0.1, smallest_skin = 0.03, largest_skin = 0.5;
+constexpr double first_skin = 0.07, smallest_skin = 0.03, largest_skin = 0.5;
 
 template <class Exec, class T>
 void shrink_discard(const Exec&, Array<T, Exec>& array, Index size) {
@@ -101,8 +89,8 @@ GrainSystem<Exec>::GrainSystem(const Exec& exec, const Domain& domain, const Gra
                                const ContactParameters& contact, const TriangleTable& walls, const Vec3d& gravity)
     : exec_(exec), domain_(domain), laws_(make_contact_laws(contact, domain.dimensions)), contact_(contact),
       gravity_(gravity), contacts_(exec, contact.rolling_friction > 0.0), position_(exec), id_(exec), group_(exec),
-      now_(exec), next_(exec), velocity_(exec), spin_(exec), start_(exec), quiet_until_(exec), drag_impulse_(exec),
-      measure_(exec), batch_(exec), held_(exec) {
+      now_(exec), next_(exec), velocity_(exec), spin_(exec), quiet_until_(exec), drag_impulse_(exec), measure_(exec),
+      batch_(exec), held_(exec) {
   const GrainStart state = make_grain_start(domain, grains);
   largest_radius_ = state.largest_radius;
   smallest_radius_ = state.smallest_radius;
@@ -112,7 +100,7 @@ GrainSystem<Exec>::GrainSystem(const Exec& exec, const Domain& domain, const Gra
   // Cells as wide as the commonest reach; separations must stay below half a tile.
   const double reach = 2.0 * largest_radius_ + std::max(skin_, largest_skin * mean_diameter_);
   check_reach(domain, reach);
-  set_ = ClusterSet<Exec>(exec, domain, std::max(2.0 * state.mean_radius + skin_, 1.0e-3 * domain.tile_size.x));
+  set_ = ClusterSet<Exec>(exec, domain, std::max(2.0 * state.mean_radius + skin_, 1.0e-3 * domain.tile_size.x), 1);
   walls_ =
       WallContacts<Exec>(exec, domain, make_wall_mesh(walls, 1.0e-5 * smallest_radius_, domain.dimensions, 8.0 * reach),
                          std::max(state.mass, 1.0e-30) * std::ldexp(1.0, -50));
@@ -193,8 +181,8 @@ WallReach GrainSystem<Exec>::wall_reach() {
 }
 
 template <class Exec>
-void GrainSystem<Exec>::synchronize_positions() {
-  exec::parallel_for(exec_, "dem::positions", slots_, FollowRecord{now_.data(), position_.data()});
+void GrainSystem<Exec>::follow_records() {
+  exec::parallel_for(exec_, "dem::positions", slots_, FollowRecords{places(), position_.data()});
 }
 
 template <class Exec>
@@ -220,8 +208,6 @@ void GrainSystem<Exec>::sort() {
 
 template <class Exec>
 void GrainSystem<Exec>::list(const std::vector<BodyMoment>& moments) {
-  shrink_discard(exec_, start_, slots_);
-  exec::parallel_for(exec_, "dem::sort", slots_, NoteStart{now_.data(), start_.data()});
   listed_poses_.clear();
   for (std::size_t b = 0; b < moments.size(); ++b) listed_poses_.push_back(listed_pose(body_state(b), moments[b]));
 }
@@ -233,13 +219,13 @@ void GrainSystem<Exec>::choose_skin(double moved) {
   const long steps = substeps_ - listed_at_;
   listed_at_ = substeps_;
   if (contact_.skin > 0.0 || steps == 0) return;
-  const double best = std::sqrt(13.0 * moved / static_cast<double>(steps) * mean_diameter_);
+  const double best = std::sqrt(8.0 * moved / static_cast<double>(steps) * mean_diameter_);
   skin_ = std::clamp(std::sqrt(best * skin_), smallest_skin * mean_diameter_, largest_skin * mean_diameter_);
 }
 
 template <class Exec>
 void GrainSystem<Exec>::rebuild(const std::vector<BodyMoment>& moments, bool sorted_anew) {
-  synchronize_positions();
+  follow_records();
   const double moved = std::sqrt(static_cast<double>(moved2_)), body_move = largest_body_move(moments);
   drift_ += moved;
   odometer_ += moved + body_move;
@@ -304,12 +290,12 @@ void GrainSystem<Exec>::run(const ContactLaws<Law>& pair, const ContactLaws<Law>
   exec::Largest* measure = measure_.data() + 2 * in_batch;
   exec::Gate gate;
   if (in_batch > 0) gate = {measure - 1, largest_move2()};
-  if (walls_.grains() > 0) { walls_.step(wall, {now_.data(), start_.data(), half, inertia}, in_batch, gate, measure); }
+  if (walls_.grains() > 0) { walls_.step(wall, {places(), half, inertia}, in_batch, gate, measure); }
   GrainStepView view{contacts_.view(),
                      position_unit(domain_),
                      now_.data(),
                      next_.data(),
-                     start_.data(),
+                     position_.data(),
                      velocity_.data(),
                      spin_.data(),
                      walls_.forces(),
@@ -394,7 +380,6 @@ void GrainSystem<Exec>::advance(double dt, int substeps) {
     k += taken;
   }
   time_ += dt;
-  synchronize_positions();
 }
 
 template <class Exec>

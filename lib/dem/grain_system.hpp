@@ -55,7 +55,8 @@ class GrainSystem {
   Index slots() const { return set_.slots(); }
   Index particles() const { return set_.particles(); }
   Index lost() const { return lost_; }  ///< grains that left the domain, so far
-  const FixedPosition* positions() const { return position_.data(); }
+  GrainPlaces places() const { return {position_.data(), now_.data()}; }
+  const FixedPosition* listed_positions() const { return position_.data(); }  ///< up to half a skin behind
   const GrainRecord* records() const { return now_.data(); }
   const std::uint32_t* ids() const { return id_.data(); }
   const std::int32_t* groups() const { return group_.data(); }
@@ -101,7 +102,7 @@ class GrainSystem {
   void rebuild(const std::vector<BodyMoment>& moments, bool sorted_anew);
   void sort();
   void list(const std::vector<BodyMoment>& moments);
-  void synchronize_positions();
+  void follow_records();
   void apply_release();
   double moved_since_sorting() const;
   bool stale(const std::vector<BodyMoment>& moments) const;
@@ -145,15 +146,14 @@ class GrainSystem {
   std::vector<double> release_time_;
   std::vector<std::int32_t> held_group_;  ///< 1: still held
 
-  Index slots_ = 0;  ///< of the arrays below (input order before the first sort)
-  Array<FixedPosition, Exec> position_;
+  Index slots_ = 0;                      ///< of the arrays below (input order before the first sort)
+  Array<FixedPosition, Exec> position_;  ///< when the lists were made
   Array<std::uint32_t, Exec> id_;
   Array<std::int32_t, Exec> group_;
-  Array<GrainRecord, Exec> now_, next_;    ///< next_ is room for what sorting and listing need
-  Array<Vec3f, Exec> velocity_, spin_;     ///< at half steps
-  Array<Vec3<std::int32_t>, Exec> start_;  ///< fraction bits when the lists were made
-  Array<float, Exec> quiet_until_;         ///< odometer reading up to which a grain is far from walls
-  FluidOnGrains fluid_;                    ///< pointers of the caller, and drag_impulse_
+  Array<GrainRecord, Exec> now_, next_;  ///< next_ is room for what sorting and listing need
+  Array<Vec3f, Exec> velocity_, spin_;   ///< at half steps
+  Array<float, Exec> quiet_until_;       ///< odometer reading up to which a grain is far from walls
+  FluidOnGrains fluid_;                  ///< pointers of the caller, and drag_impulse_
   Array<Vec3d, Exec> drag_impulse_;
   Array<exec::Largest, Exec> measure_;  ///< two a sub-step of a batch: of the walls, of the grains
   exec::Batch<Exec> batch_;             ///< sub-steps between two looks at their measures

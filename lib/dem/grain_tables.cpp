@@ -109,6 +109,11 @@ void check_reach(const Domain& domain, double reach) {
   for (int axis = 0; axis < 3; ++axis) {
     if (domain.dimensions == 2 && axis == 1) continue;
     if (reach <= 0.25 * domain.tile_size[axis]) continue;
+    if (domain.periodic[axis] && domain.tiles[axis] == 1)
+      throw Error(ErrorKind::input, "grains: the largest diameter with its skin, " + std::to_string(reach) +
+                                        " m, is more than a quarter of the period of " +
+                                        std::to_string(domain.tile_size[axis]) + " m along " + "xyz"[axis] +
+                                        "; smaller grains or a wider slab (domain.lower, domain.upper) are needed");
     throw Error(ErrorKind::input, "grains: the largest diameter with its skin, " + std::to_string(reach) +
                                       " m, is more than a quarter of a block of the domain, " +
                                       std::to_string(domain.tile_size[axis]) +

@@ -77,6 +77,23 @@ GDESP_HD inline std::int32_t fraction_difference(std::int32_t a, std::int32_t b)
 GDESP_HD inline std::int32_t fraction_sum(std::int32_t a, std::int32_t d) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(d));
 }
+/// Where a grain is: in the record are the fraction bits of now, the rest by the short way round from where it was listed.
+struct GrainPlaces {
+  const FixedPosition* listed;  ///< when lists were made last
+  const GrainRecord* record;
+  GDESP_HD FixedPosition operator[](Index i) const {
+    const FixedPosition& p = listed[i];
+    const GrainRecord& r = record[i];
+    return {p.x + fraction_difference(r.x, bits(p.x)), p.y + fraction_difference(r.y, bits(p.y)),
+            p.z + fraction_difference(r.z, bits(p.z))};
+  }
+  /// The fraction bits where grain i was listed.
+  GDESP_HD Vec3<std::int32_t> listed_bits(Index i) const {
+    const FixedPosition& p = listed[i];
+    return {bits(p.x), bits(p.y), bits(p.z)};
+  }
+  GDESP_HD static std::int32_t bits(std::int64_t p) { return static_cast<std::int32_t>(Domain::fraction_of(p)); }
+};
 /// m, r_a - r_b.
 GDESP_HD inline Vec3f separation(const PositionUnit& unit, const GrainRecord& a, const GrainRecord& b) {
   return {static_cast<float>(fraction_difference(a.x, b.x)) * unit.metres.x,

@@ -158,6 +158,7 @@ struct FillRows {
   Index* slot;
   Index* row_begin;
   WallRow* rows;
+  WallLever* levers;  // null without bodies
   GrainRecord* records;
   const WallHistory* old_history;
   WallHistory* history;
@@ -169,11 +170,11 @@ struct FillRows {
       row.body[l] = 0;
       row.height[l] = far_height;
       for (int k = 0; k < 3; ++k) row.inside[k][l] = row.along[k][l] = 0.0f;
-      row.lever_x[l] = row.lever_y[l] = row.lever_z[l] = 0.0f;
     }
     row.moving = 0;
   }
-  GDESP_HD void put(WallRow& row, int lane, Index t, const Vec3d& p) const {
+  GDESP_HD void put(Index index, int lane, Index t, const Vec3d& p) const {
+    WallRow& row = rows[index];
     const TriangleCorners& c = search.mesh.corners[t];
     const std::int32_t body = search.mesh.frame[t].body;
     const Vec3d area = cross(c.b - c.a, c.c - c.a);
@@ -191,9 +192,9 @@ struct FillRows {
     if (body == 0) return;
     row.moving = 1;
     const Vec3d lever = p - search.poses[body].centre_initial;
-    row.lever_x[lane] = static_cast<float>(lever.x);
-    row.lever_y[lane] = static_cast<float>(lever.y);
-    row.lever_z[lane] = static_cast<float>(lever.z);
+    levers[index].x[lane] = static_cast<float>(lever.x);
+    levers[index].y[lane] = static_cast<float>(lever.y);
+    levers[index].z[lane] = static_cast<float>(lever.z);
   }
   GDESP_HD static bool over_face(const WallRow& row, int l) {
     return row.inside[0][l] >= 0.0f && row.inside[1][l] >= 0.0f && row.inside[2][l] >= 0.0f;
@@ -233,10 +234,13 @@ struct FillRows {
     const Index w = ordinal[i], begin = first_row[i], end = first_row[i + 1];
     slot[w] = i;
     row_begin[w] = begin;
-    for (Index r = begin; r < end; ++r) clear(rows[r]);
+    for (Index r = begin; r < end; ++r) {
+      clear(rows[r]);
+      if (levers) levers[r] = WallLever{};
+    }
     Index place = 0;
     search(i, search.list_reach(i), [&](Index t, const Vec3d& p, double) {
-      put(rows[begin + place / 8], place % 8, t, p);
+      put(begin + place / 8, place % 8, t, p);
       ++place;
     });
     WallHistory memory;
@@ -259,7 +263,7 @@ template <class Exec>
 WallContacts<Exec>::WallContacts(const Exec& exec, const Domain& domain, const WallMesh& mesh, double impulse_unit)
     : exec_(exec), domain_(domain), host_bodies_(mesh.body), impulse_unit_(impulse_unit), frame_(exec), corners_(exec),
       edge_(exec), vertex_(exec), smooth_(exec), ring_of_(exec), ring_(exec), node_(exec), body_(exec), listed_(exec),
-      pose_(exec), slot_(exec), row_begin_(exec), rows_(exec), gaps_(exec), history_(exec), force_(exec),
+      pose_(exec), slot_(exec), row_begin_(exec), rows_(exec), levers_(exec), gaps_(exec), history_(exec), force_(exec),
       impulse_(exec) {
   frame_.assign(mesh.frame);
   corners_.assign(mesh.corners);
@@ -307,12 +311,13 @@ void WallContacts<Exec>::build(const ClusterSet<Exec>& set, const Array<FixedPos
   slot_.resize_discard(grains + 1);
   row_begin_.resize_discard(grains + 1);
   rows_.resize_discard(static_cast<std::size_t>(rows));
+  if (bodies() > 1) levers_.resize_discard(static_cast<std::size_t>(rows));
   gaps_.resize_discard(static_cast<std::size_t>(rows));
   history_.resize_discard(grains);
   force_.resize_discard(grains);
   exec::parallel_for(exec_, "dem::wall_lists", slots,
-                     FillRows{search, near, ordinal, first_row, slot_.data(), row_begin_.data(), rows_.data(), records,
-                              old_history, history_.data(), first});
+                     FillRows{search, near, ordinal, first_row, slot_.data(), row_begin_.data(), rows_.data(),
+                              levers_.data(), records, old_history, history_.data(), first});
   exec::parallel_for(exec_, "dem::wall_lists", 1, SetLast{row_begin_.data() + grains_, rows});
 }
 
@@ -327,8 +332,8 @@ void WallContacts<Exec>::step(const ContactLaws<Law>& laws, const WallMotion& mo
                               const exec::Gate& gate, exec::Largest* measure) {
   const Index set = bodies() > 1 ? sub_step * static_cast<Index>(bodies()) : 0;
   run_wall_step(exec_, laws,
-                WallStepView{mesh_view(), position_unit(domain_), motion.now, motion.start, slot_.data(),
-                             row_begin_.data(), rows_.data(), gaps_.data(), pose_.data() + set, history_.data(),
+                WallStepView{mesh_view(), position_unit(domain_), motion.grains, slot_.data(), row_begin_.data(),
+                             rows_.data(), levers_.data(), gaps_.data(), pose_.data() + set, history_.data(),
                              force_.data(), impulse_.data(), impulse_unit_, motion.inertia_factor, motion.half},
                 grains_, gate, measure);
 }

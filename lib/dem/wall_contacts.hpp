@@ -16,8 +16,7 @@ struct ListedPose {
 
 /// The grains as a sub-step finds them.
 struct WallMotion {
-  const GrainRecord* now;
-  const Vec3<std::int32_t>* start;  ///< fraction bits when the lists were made
+  GrainPlaces grains;
   HalfSteps half;
   float inertia_factor;  ///< I / (m R^2)
 };
@@ -83,6 +82,7 @@ class WallContacts {
   Array<BodyPose, Exec> pose_;
   Array<Index, Exec> slot_, row_begin_;
   Array<WallRow, Exec> rows_;
+  Array<WallLever, Exec> levers_;
   Array<WallGap, Exec> gaps_;
   Array<WallHistory, Exec> history_;
   Array<WallForce, Exec> force_;

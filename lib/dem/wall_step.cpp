@@ -42,9 +42,10 @@ struct WallStep {
 
   // Displacement of the grain since listing, against each lane's body, body axes.
   template <class Lanes>
-  GDESP_HD Vec3<typename Lanes::Real> displacement(const Vec3f& u, const WallRow& row, const Lanes& lanes) const {
+  GDESP_HD Vec3<typename Lanes::Real> displacement(const Vec3f& u, Index index, const Lanes& lanes) const {
     using R = typename Lanes::Real;
     const Vec3<R> world{R(u.x), R(u.y), R(u.z)};
+    const WallRow& row = v.rows[index];
     if (!row.moving) return world;
     constexpr int pose_floats = sizeof(BodyPose) / sizeof(float);
     const float* poses = reinterpret_cast<const float*>(v.pose);
@@ -53,7 +54,8 @@ struct WallStep {
     for (int k = 0; k < 9; ++k) to_body[k] = lanes.gather(poses + k, base);
     for (int k = 0; k < 9; ++k) turned[k] = lanes.gather(poses + 9 + k, base);
     for (int k = 0; k < 3; ++k) shift[k] = lanes.gather(poses + 18 + k, base);
-    const Vec3<R> lever{lanes.load(row.lever_x), lanes.load(row.lever_y), lanes.load(row.lever_z)};
+    const WallLever& levers = v.levers[index];
+    const Vec3<R> lever{lanes.load(levers.x), lanes.load(levers.y), lanes.load(levers.z)};
     return apply(to_body, Vec3<R>{world.x - shift[0], world.y - shift[1], world.z - shift[2]}) + apply(turned, lever);
   }
 
@@ -103,7 +105,7 @@ struct WallStep {
     lanes.gather4(frames + 4, 16, t, q1);
     lanes.gather4(frames + 8, 16, t, q2);
     lanes.gather4(frames + 12, 16, t, q3);
-    const Vec3<R> u = displacement(displaced, row, lanes);
+    const Vec3<R> u = displacement(displaced, index, lanes);
     const Vec3<R> n{q0[0], q0[1], q0[2]}, m0{q1[0], q1[1], q1[2]}, m1{q2[0], q2[1], q2[2]}, m2{q3[0], q3[1], q3[2]};
     const R height = dot(n, u) + lanes.load(row.height);
     const R edge0 = dot(m0, u) + lanes.load(row.inside[0]), edge1 = dot(m1, u) + lanes.load(row.inside[1]);
@@ -176,7 +178,8 @@ struct WallStep {
     touch.body = body;
     touch.smooth = v.mesh.smooth[row.triangle[lane]] != 0;
     if (body != 0) {
-      const Vec3f lever{row.lever_x[lane], row.lever_y[lane], row.lever_z[lane]};
+      const WallLever& levers = v.levers[r];
+      const Vec3f lever{levers.x[lane], levers.y[lane], levers.z[lane]};
       touch.centre_arm =
           to_world(pose, lever + apply(pose.to_body, displaced - pose.shift) + apply(pose.turned, lever));
     }
@@ -284,8 +287,8 @@ struct WallStep {
   template <class Lanes>
   GDESP_HD exec::Largest operator()(Index w, const Lanes& lanes) const {
     const Index i = v.slot[w];
-    const GrainRecord& own = v.now[i];
-    const Vec3<std::int32_t> start = v.start[i];
+    const GrainRecord& own = v.grains.record[i];
+    const Vec3<std::int32_t> start = v.grains.listed_bits(i);
     const Vec3f displaced{static_cast<float>(fraction_difference(own.x, start.x)) * v.unit.metres.x,
                           static_cast<float>(fraction_difference(own.y, start.y)) * v.unit.metres.y,
                           static_cast<float>(fraction_difference(own.z, start.z)) * v.unit.metres.z};

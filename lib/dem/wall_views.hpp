@@ -26,8 +26,11 @@ struct alignas(32) WallRow {
   float height[8];
   float inside[3][8];
   float along[3][8];
-  float lever_x[8], lever_y[8], lever_z[8];  ///< m, grain - centre of the body, body axes
-  std::int32_t moving;                       ///< some triangle belongs to a body
+  std::int32_t moving;  ///< some triangle belongs to a body
+};
+/// Of the same triangles: m, grain - centre of the body, body axes. There are none when there are no bodies.
+struct alignas(32) WallLever {
+  float x[8], y[8], z[8];
 };
 inline constexpr float far_height = 1.0e30f;
 
@@ -69,11 +72,11 @@ struct WallMeshView {
 struct WallStepView {
   WallMeshView mesh;
   PositionUnit unit;
-  const GrainRecord* now;
-  const Vec3<std::int32_t>* start;  ///< fraction bits of grains when the lists were made
-  const Index* slot;                ///< of each grain near walls
-  const Index* row_begin;           ///< its rows; one more element than grains
+  GrainPlaces grains;
+  const Index* slot;       ///< of each grain near walls
+  const Index* row_begin;  ///< its rows; one more element than grains
   const WallRow* rows;
+  const WallLever* levers;
   WallGap* gaps;
   const BodyPose* pose;  ///< by body number; 0 at rest
   WallHistory* history;

@@ -203,15 +203,15 @@ int bits_for(std::uint64_t largest) {
 }  // namespace
 
 template <class Exec>
-ClusterSet<Exec>::ClusterSet(const Exec& exec, const Domain& domain, double cell_size)
+ClusterSet<Exec>::ClusterSet(const Exec& exec, const Domain& domain, double cell_size, int finer)
     : exec_(exec), domain_(domain), pencil_first_(exec), padded_count_(exec), padded_begin_(exec), tile_head_(exec),
       tile_ordinal_(exec), source_(exec), tile_slot_(exec), cell_begin_(exec), block_(exec), cluster_tile_(exec) {
   for (int axis = 0; axis < 3; ++axis) {
     cells_[axis] = std::max(1, static_cast<std::int32_t>(domain.tile_size[axis] / cell_size + 1e-6));
   }
   if (domain.dimensions == 2) cells_.y = 1;
-  // Finer along the pencil, where cells cost nothing; a power of two, so that their borders are borders of sort keys.
-  const std::int32_t fine = 2 * cells_.x;
+  // A power of two along the pencil, so that borders of cells are borders of sort keys.
+  const std::int32_t fine = finer * cells_.x;
   cells_.x = 1;
   while (cells_.x < fine && cells_.x < (1 << x_bits)) cells_.x *= 2;
   for (int axis = 0; axis < 3; ++axis) {

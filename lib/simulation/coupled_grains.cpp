@@ -38,7 +38,7 @@ void CoupledSimulation<Exec>::start_grains(const SimulationInput& input) {
 template <class Exec>
 sph::Movers CoupledSimulation<Exec>::movers() const {
   if (!grains_ || !coupling_) return {};
-  return {grains_->positions(), grains_->velocities(), grains_->ids(), grains_->slots(), true};
+  return {grains_->listed_positions(), grains_->velocities(), grains_->ids(), grains_->slots(), true};
 }
 
 template <class Exec>

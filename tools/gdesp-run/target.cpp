@@ -158,6 +158,7 @@ std::vector<Pilot> run_pilots(const RunOptions& o, const Scene& scene, const Tar
   std::vector<Pilot> pilots;
   const double unit = common_length(scene);
   double dp = coarser_part(unit, first_dp(o, scene, folder));
+  if (dp > coarsest_dp(scene)) dp = finer_part(unit, coarsest_dp(scene));
   while (pilots.size() < most_pilots && !cli::interrupted()) {
     pilots.push_back(run_pilot(o, scene, dp, folder));
     dp = finer_part(unit, dp / refinement);

@@ -59,6 +59,9 @@ Choice choose_dp(const std::vector<Pilot>& pilots, const Targets& targets, int d
 /// m: the largest length of which the inner lengths of tanks, periods and depths of the scene are multiples, as its dp has them; its
 /// whole parts are the spacings that fit the walls. 0 where there is none: no tank, or its dp does not fit either.
 double common_length(const Scene& scene);
+/// m: the largest dp whose grains, which keep their ratio to dp, fit the periods of the scene: six diameters (dem::check_reach) at
+/// least. Infinity without grains or periods.
+double coarsest_dp(const Scene& scene);
 /// m: the next whole part of unit that is at most, or at least, dp; dp itself where unit is less than two of it.
 double finer_part(double unit, double dp);
 double coarser_part(double unit, double dp);

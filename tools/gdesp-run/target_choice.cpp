@@ -116,6 +116,21 @@ double common_length(const Scene& scene) {
   return static_cast<double>(common) * scene.dp;
 }
 
+double coarsest_dp(const Scene& scene) {
+  double coarsest = INFINITY;
+  if (!scene.domain) return coarsest;
+  for (const Slide& slide : scene.slides) {
+    if (slide.kind != "granular" || slide.diameter <= 0.0) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (std::find(scene.periodic.begin(), scene.periodic.end(), std::string(1, "xyz"[axis])) == scene.periodic.end())
+        continue;
+      const double period = scene.domain->upper[axis] - scene.domain->lower[axis];
+      coarsest = std::min(coarsest, period / 6.0 * scene.dp / slide.diameter);
+    }
+  }
+  return coarsest;
+}
+
 double finer_part(double unit, double dp) {
   return unit < 2.0 * dp || dp <= 0.0 ? dp : unit / std::ceil(unit / dp - 1.0e-6);
 }

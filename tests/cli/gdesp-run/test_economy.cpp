@@ -243,6 +243,22 @@ TEST(Targets, take_spacings_that_fit_the_walls) {
   EXPECT_EQ(coarser_part(0.1, 0.06), 0.06) << "its parts are too far apart";
 }
 
+TEST(Targets, pilots_leave_six_grains_across_a_period) {
+  Scene s = tank_scene();
+  s.dp = 0.1;
+  s.domain.emplace();
+  s.domain->lower = {0.0, 0.0, 0.0};
+  s.domain->upper = {4.0, 0.6, 2.0};
+  EXPECT_TRUE(std::isinf(coarsest_dp(s)));
+  s.slides.emplace_back();
+  s.slides[0].diameter = 0.05;
+  EXPECT_TRUE(std::isinf(coarsest_dp(s))) << "no period";
+  s.periodic = {"y"};
+  EXPECT_NEAR(coarsest_dp(s), 0.2, 1e-12) << "grains of 0.1 m";
+  s.slides[0].kind = "rigid";
+  EXPECT_TRUE(std::isinf(coarsest_dp(s))) << "no grains";
+}
+
 TEST(Targets, budget_takes_the_next_coarser_spacing_that_fits_and_accuracy_the_next_finer) {
   std::vector<Pilot> pilots;
   for (double dp : {0.8, 0.6, 0.4}) pilots.push_back({dp, 2.0 - 0.5 * dp, std::pow(0.4 / dp, 4)});

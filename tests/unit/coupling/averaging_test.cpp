@@ -92,7 +92,25 @@ struct Places {
         record[static_cast<std::size_t>(record_offset(c) + 4 * axis + slot % exec::cluster_size)] = r[axis];
     }
   }
-  PlacesOfSet view() { return {position.data(), id.data(), static_cast<Index>(id.size())}; }
+  PlacesOfSet<const FixedPosition*> view() { return {position.data(), id.data(), static_cast<Index>(id.size())}; }
+};
+// Grains were listed a way off: where they are is in their records.
+struct PlacesOfGrains : Places {
+  std::vector<FixedPosition> listed;
+  std::vector<dem::GrainRecord> grain;
+  PlacesOfGrains(const Domain& domain, double cell, const std::vector<Vec3d>& places) : Places(domain, cell, places) {
+    for (const Vec3d& r : places) {
+      const FixedPosition p = domain.fixed(r);
+      listed.push_back(domain.fixed(r + Vec3d{0.4 * cell, domain.dimensions == 2 ? 0.0 : -0.3 * cell, 0.2 * cell}));
+      grain.push_back({});
+      grain.back().x = dem::GrainPlaces::bits(p.x);
+      grain.back().y = dem::GrainPlaces::bits(p.y);
+      grain.back().z = dem::GrainPlaces::bits(p.z);
+    }
+  }
+  PlacesOfSet<dem::GrainPlaces> view() {
+    return {{listed.data(), grain.data()}, id.data(), static_cast<Index>(id.size())};
+  }
 };
 
 struct FirstRows {
@@ -119,7 +137,8 @@ TEST(AveragingNodes, particles_read_the_sum_over_the_nodes_around_them) {
                         0.64 + 0.15 * uniform(random)});
       moved.push_back(places.back() + Vec3d{skin, 0.0, -skin} * (0.5 * uniform(random)));
     }
-    Places grains(domain, 2.0 * dp, places), water(domain, 3.0 * dp, places);
+    PlacesOfGrains grains(domain, 2.0 * dp, places);
+    Places water(domain, 3.0 * dp, places);
     AveragingNodes<OpenMP> nodes(OpenMP(), lattice);
     nodes.build(grains.set.view(), grains.view(), water.view(), skin);
 
@@ -179,7 +198,8 @@ TEST(AveragingNodes, are_all_that_are_in_reach_of_both) {
   OpenMP exec;
   const std::vector<Vec3d> grains{{0.004, 0.25, 0.3}, {0.7, 0.01, 0.64}},
       water{{1.26, 0.24, 0.31}, {0.72, 0.03, 0.66}, {0.4, 0.4, 0.4}};
-  Places of_grains(domain, 2.0 * dp, grains), of_water(domain, 2.0 * dp, water);
+  PlacesOfGrains of_grains(domain, 2.0 * dp, grains);
+  Places of_water(domain, 2.0 * dp, water);
   AveragingNodes<OpenMP> nodes(exec, lattice);
   nodes.build(of_grains.set.view(), of_grains.view(), of_water.view(), 0.0);
 

@@ -393,6 +393,16 @@ TEST_F(GrainSystemTest, InputErrorsNameGrainAndValue) {
   } catch (const Error& error) { EXPECT_NE(std::string(error.what()).find("diameter of grain 0"), std::string::npos); }
   table.diameter[0] = 0.3f;  // blocks of 0.64 m hold diameters up to 0.145 m
   EXPECT_THROW(Grains({}, space({0, 0, 0}, {1, 1, 1}, 0.01), table, soft(), {}, {}), Error);
+  table.diameter[0] = 0.02f;
+  const bool periodic[3] = {false, true, false};
+  const auto slab = [&](double width) { return make_domain({0, 0, 0}, {1, width, 1}, 0.01, periodic, 3); };
+  EXPECT_NO_THROW(Grains({}, slab(0.121), table, soft(), {}, {})) << "six diameters";
+  try {
+    Grains grains({}, slab(0.119), table, soft(), {}, {});
+    FAIL() << "a slab too narrow was taken";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("period of 0.119000 m along y"), std::string::npos) << error.what();
+  }
 }
 
 TEST_F(GrainSystemTest, RunawayStopsWithAMessage) {
