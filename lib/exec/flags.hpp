@@ -9,11 +9,12 @@
 namespace gdesp::exec {
 
 /// Sets a flag, whoever else sets it too.
-GDESP_HD inline void set_flag(std::uint8_t* flag) {
+template <class T>
+GDESP_HD inline void set_flag(T* flag) {
 #if defined(__CUDA_ARCH__)
   *flag = 1;
 #else
-  __atomic_store_n(flag, std::uint8_t{1}, __ATOMIC_RELAXED);
+  __atomic_store_n(flag, T{1}, __ATOMIC_RELAXED);
 #endif
 }
 

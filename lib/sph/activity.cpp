@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "exec/flags.hpp"
+
 namespace gdesp::sph {
 namespace {
 
@@ -33,6 +35,18 @@ struct AddWater {
     exec::add_units(sum + block_y, ::llrint(static_cast<double>(v.y) * units));
     exec::add_units(sum + block_z, ::llrint(static_cast<double>(v.z) * units));
     if (!(v2 < fast2)) exec::add_units(sum + block_fast, 1);
+  }
+};
+
+// Where there is water, when it does not matter how it moves.
+struct MarkWater {
+  BlockGrid grid;
+  const FixedPosition* position;
+  const std::uint32_t* id;
+  std::int64_t* sums;
+  GDESP_HD void operator()(Index s) const {
+    if (id[s] == no_particle) return;
+    exec::set_flag(sums + static_cast<std::int64_t>(block_rows) * grid.block_of(position[s]) + block_count);
   }
 };
 
@@ -172,6 +186,10 @@ void Activity<Exec>::begin() {
 template <class Exec>
 void Activity<Exec>::add_water(const FixedPosition* position, const Vec3f* velocity, const std::uint32_t* id,
                                Index count) {
+  if (!sleeps_) {
+    exec::parallel_for(exec_, "activity::water", count, MarkWater{grid_, position, id, sums_.data()});
+    return;
+  }
   const double fast = parameters_.splash_speed * speed_scale();
   exec::parallel_for(
       exec_, "activity::water", count,
