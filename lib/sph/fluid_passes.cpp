@@ -21,7 +21,7 @@ struct FluidPass {
   const float* fluid;
   const float* walls;
   const float* wall_friction;
-  const float* mass_share;
+  const float* mass_share;  // null: 1
   const float* porosity;      // null: 1
   const float* own_pressure;  // null: A of the record
   const float* wall_ghost;    // null: no no-slip walls
@@ -80,7 +80,8 @@ struct FluidPass {
     }
     float* out = rate + 16 * static_cast<std::int64_t>(c);
     // V_i / (m_i / rho0), that is rho0 / rho_i (and 1 in the form of the paper).
-    const Real specific_volume = lanes.load_i(ri + row_B) / lanes.load_i(mass_share + 4 * static_cast<std::int64_t>(c));
+    Real specific_volume = lanes.load_i(ri + row_B);
+    if (mass_share) specific_volume = specific_volume / lanes.load_i(mass_share + 4 * static_cast<std::int64_t>(c));
     if constexpr (WithMomentum) {
       const Real scale = Real(c2) * specific_volume;
       lanes.store_sum_i(out, rates.ax * scale);

@@ -156,7 +156,8 @@ void FluidSystem<Exec>::start_fluid(const FluidTable& fluid) {
   velocity_.assign(value_or(fluid.velocity, n, Vec3f{}));
   density_.assign(density);
   id_.assign(fluid.id.empty() ? numbered(n) : fluid.id);
-  mass_share_.assign(value_or(fluid.mass_share, n, 1.0f));
+  if (std::any_of(fluid.mass_share.begin(), fluid.mass_share.end(), [](float share) { return share != 1.0f; }))
+    mass_share_.assign(fluid.mass_share);
   rate_.resize_discard(4 * (n + 3));
   rate_.fill_bytes(0);
 }
@@ -197,7 +198,7 @@ void FluidSystem<Exec>::sort_fluid() {
   }
   exec::permute(exec_, velocity_, record_, source, n, Vec3f{});
   exec::permute(exec_, density_, record_, source, n, 0.0f);
-  exec::permute(exec_, mass_share_, record_, source, n, 1.0f);
+  if (!mass_share_.empty()) exec::permute(exec_, mass_share_, record_, source, n, 1.0f);
   exec::permute(exec_, id_, record_, source, n, no_particle);
   if (coupled_) {
     exec::permute(exec_, porosity_, record_, source, n, 1.0f);
@@ -300,6 +301,10 @@ void FluidSystem<Exec>::enable_coupling() {
   porosity_.resize_discard(n);
   external_.resize_discard(n);
   coupled_ = true;
+  if (mass_share_.empty()) {  // water between grains may get less
+    mass_share_.resize_discard(n);
+    exec::parallel_for(exec_, "sph::mass_share", slots(), SetOne{mass_share_.data()});
+  }
   reset_coupling();
 }
 
@@ -350,7 +355,7 @@ FluidTable FluidSystem<Exec>::table(float density_lag) const {
     t.pressure.push_back(static_cast<float>(
         stiffness * static_cast<double>(cavitated_pressure(tait_pressure(D), parameters_.cavitates))));
     t.porosity.push_back(eps);
-    t.mass_share.push_back(share[s]);
+    t.mass_share.push_back(share.empty() ? 1.0f : share[s]);
     t.id.push_back(id[s]);
   }
   return t;

@@ -82,7 +82,7 @@ class FluidSystem {
   }  ///< per slot, to be written; coupled runs only
   const float* porosity() const { return porosity_.data(); }
   Vec3f* external_acceleration() { return external_.data(); }  ///< per slot, m/s2: the reaction of grains
-  const float* mass_share() const { return mass_share_.data(); }
+  const float* mass_share() const { return mass_share_.data(); }  ///< null: 1
   const float* densities() const { return density_.data(); }  ///< per slot, D of the superficial density
   const float* rates() const { return rate_.data(); }         ///< ax ay az dD, 4 each, per cluster
   const std::uint32_t* ids() const { return id_.data(); }
@@ -202,7 +202,7 @@ class FluidSystem {
   Array<Vec3f, Exec> velocity_;
   Array<float, Exec> density_;  ///< D = rho/rho0 - 1 of the superficial density
   Array<std::uint32_t, Exec> id_;
-  Array<float, Exec> mass_share_;  ///< mass / (rho0 dp^dimensions)
+  Array<float, Exec> mass_share_;  ///< mass / (rho0 dp^dimensions); none: 1
   Array<float, Exec> porosity_;    ///< coupled runs only
   Array<Vec3f, Exec> external_;    ///< coupled runs only
   Array<float, Exec> record_;      ///< x y z B vx vy vz A, 4 each, per cluster

@@ -138,7 +138,7 @@ struct SumOf {
   Domain domain;
   FluidStateView state;
   const std::uint32_t* id;
-  const float* mass_share;
+  const float* mass_share;  // null: 1
   const float* porosity;
   double particle_mass, c2;
   Vec3d gravity;
@@ -146,7 +146,7 @@ struct SumOf {
   GDESP_HD FluidSums operator()(Index s) const {
     FluidSums sum;
     if (id[s] == no_particle) return sum;
-    const double m = particle_mass * static_cast<double>(mass_share[s]);
+    const double m = particle_mass * (mass_share ? static_cast<double>(mass_share[s]) : 1.0);
     const auto v = static_cast<Vec3d>(state.velocity[s]);
     sum.particles = 1;
     sum.mass = m;

@@ -15,7 +15,7 @@ struct RecordPacker {
   const Vec3<std::int32_t>* cluster_tile;
   const std::uint32_t* id;
   const float* porosity;  // null: 1
-  const float* mass_share;
+  const float* mass_share;  // null: 1
   bool cavitates;
   float* record;
   bool keeps_pressure;  // that of the record stays
