@@ -68,13 +68,12 @@ struct Tally {
   Index particles, lost;
 };
 struct CountParticles {
-  Domain domain;
-  const FixedPosition* position;
+  const std::uint64_t* keys;  // not sorted yet
+  std::uint64_t last_key;
   const std::uint32_t* id;
   GDESP_HD Tally operator()(Index i) const {
-    if (id[i] == no_particle) return {0, 0};
-    const bool inside = domain.inside(domain.wrapped(position[i]));
-    return {inside ? 1 : 0, inside ? 0 : 1};
+    if (keys[i] != last_key) return {1, 0};
+    return {0, id[i] == no_particle ? 0 : 1};
   }
 };
 struct AddTally {
@@ -131,7 +130,6 @@ struct PlaceParticles {
   KeyMaker maker;
   const std::uint64_t* keys;
   const Index* order;
-  const FixedPosition* position;
   const Index* head;
   const Index* ordinal;
   const Index* pencil_first;
@@ -144,7 +142,8 @@ struct PlaceParticles {
   Vec3<std::int32_t>* cluster_tile;
 
   GDESP_HD std::int32_t cell_x(Index k) const {
-    return KeyMaker::cell(maker.domain.wrapped(position[order[k]]).x, maker.cells.x);
+    const auto x = static_cast<std::int32_t>(keys[k] & ((1u << x_bits) - 1u));
+    return (x * maker.cells.x) >> x_bits;
   }
   GDESP_HD void operator()(Index k) const {
     const Index o = ordinal[k] + head[k] - 1;
@@ -241,7 +240,7 @@ void ClusterSet<Exec>::build_in(const Array<FixedPosition, Exec>& position, cons
   exec::parallel_for(exec_, "sort::keys", old_slots,
                      MakeKeys{maker, position.data(), id.data(), sorted.keys, sorted.values});
   const Tally tally = exec::reduce(exec_, "sort::count", old_slots, Tally{0, 0},
-                                   CountParticles{domain_, position.data(), id.data()}, AddTally{});
+                                   CountParticles{sorted.keys, maker.last_key(), id.data()}, AddTally{});
   particles_ = tally.particles;
   lost_ = tally.lost;
   exec::sort_pairs(exec_, "sort::radix", sorted, old_slots, tile_shift + tile_bits_);
@@ -273,7 +272,7 @@ void ClusterSet<Exec>::build_in(const Array<FixedPosition, Exec>& position, cons
                      WriteTileSlots{keys, pencil_first_.data(), tile_head_.data(), tile_ordinal_.data(), tile_shift,
                                     tile_slot_.data()});
   exec::parallel_for(exec_, "sort::place", particles_,
-                     PlaceParticles{maker, keys, sorted.values, position.data(), head, ordinal, pencil_first_.data(),
+                     PlaceParticles{maker, keys, sorted.values, head, ordinal, pencil_first_.data(),
                                     padded_begin_.data(), tile_slot_.data(), particles_, tile_shift, source_.data(),
                                     cell_begin_.data(), cluster_tile_.data()});
   block_.resize_discard(8 * static_cast<std::size_t>(used_tiles));

@@ -21,7 +21,7 @@ struct FluidPass {
   const float* fluid;
   const float* walls;
   const float* wall_friction;
-  const float* mass_share;  // null: 1
+  const float* mass_share;    // null: 1
   const float* porosity;      // null: 1
   const float* own_pressure;  // null: A of the record
   const float* wall_ghost;    // null: no no-slip walls

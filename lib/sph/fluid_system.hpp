@@ -81,10 +81,10 @@ class FluidSystem {
     return porosity_.data();
   }  ///< per slot, to be written; coupled runs only
   const float* porosity() const { return porosity_.data(); }
-  Vec3f* external_acceleration() { return external_.data(); }  ///< per slot, m/s2: the reaction of grains
+  Vec3f* external_acceleration() { return external_.data(); }     ///< per slot, m/s2: the reaction of grains
   const float* mass_share() const { return mass_share_.data(); }  ///< null: 1
-  const float* densities() const { return density_.data(); }  ///< per slot, D of the superficial density
-  const float* rates() const { return rate_.data(); }         ///< ax ay az dD, 4 each, per cluster
+  const float* densities() const { return density_.data(); }      ///< per slot, D of the superficial density
+  const float* rates() const { return rate_.data(); }             ///< ax ay az dD, 4 each, per cluster
   const std::uint32_t* ids() const { return id_.data(); }
   /// Allocates what coupling needs: porosity (1) and external acceleration (0) by slot.
   void enable_coupling();

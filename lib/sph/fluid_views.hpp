@@ -14,7 +14,7 @@ struct RecordPacker {
   bool paper_form;
   const Vec3<std::int32_t>* cluster_tile;
   const std::uint32_t* id;
-  const float* porosity;  // null: 1
+  const float* porosity;    // null: 1
   const float* mass_share;  // null: 1
   bool cavitates;
   float* record;
