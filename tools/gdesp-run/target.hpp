@@ -53,7 +53,7 @@ struct Choice {
   double processor_seconds = 0.0;
 };
 /// The coarsest dp that is accurate enough; else, or without an accuracy, the finest that the budget pays for. With a unit (m) it is
-/// a whole part of that.
+/// a whole part of that. Never coarser than the coarsest pilot.
 Choice choose_dp(const std::vector<Pilot>& pilots, const Targets& targets, int dimensions, double unit = 0.0);
 
 /// m: the largest length of which the inner lengths of tanks, periods and depths of the scene are multiples, as its dp has them; its

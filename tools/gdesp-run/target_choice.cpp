@@ -37,6 +37,10 @@ const Pilot& finest(const std::vector<Pilot>& pilots) {
   return *std::min_element(pilots.begin(), pilots.end(), [](const Pilot& a, const Pilot& b) { return a.dp < b.dp; });
 }
 
+double coarsest_of(const std::vector<Pilot>& pilots) {
+  return std::max_element(pilots.begin(), pilots.end(), [](const Pilot& a, const Pilot& b) { return a.dp < b.dp; })->dp;
+}
+
 }  // namespace
 
 double cost_ratio(const Pilot& pilot, double dp, int dimensions) {
@@ -158,6 +162,11 @@ Choice choose_dp(const std::vector<Pilot>& pilots, const Targets& targets, int d
                       " %; a larger --accuracy, or --budget, is needed");
   } else {
     choice = {affordable, 0.0, 0.0, true, "all that the budget pays for"};
+  }
+  const double coarsest = coarsest_of(pilots);
+  if (choice.dp > coarsest) {
+    choice.dp = coarsest;
+    choice.reason = "that of the coarsest pilot; the budget pays for less";
   }
   const double ratio = cost_ratio(finest(pilots), choice.dp, dimensions);
   choice.seconds = ratio * finest(pilots).seconds;

@@ -259,6 +259,15 @@ TEST(Targets, pilots_leave_six_grains_across_a_period) {
   EXPECT_TRUE(std::isinf(coarsest_dp(s))) << "no grains";
 }
 
+TEST(Targets, are_never_coarser_than_the_coarsest_pilot) {
+  std::vector<Pilot> pilots;
+  for (double dp : {0.8, 0.6, 0.4}) pilots.push_back({dp, 2.0 - 0.5 * dp, std::pow(0.4 / dp, 4)});
+  const Choice choice = choose_dp(pilots, {0.0, 1.0e-3}, 3);
+  EXPECT_EQ(choice.dp, 0.8);
+  EXPECT_NEAR(choice.seconds, std::pow(0.5, 4), 1e-9);
+  EXPECT_NE(choice.reason.find("the budget pays for less"), std::string::npos) << choice.reason;
+}
+
 TEST(Targets, budget_takes_the_next_coarser_spacing_that_fits_and_accuracy_the_next_finer) {
   std::vector<Pilot> pilots;
   for (double dp : {0.8, 0.6, 0.4}) pilots.push_back({dp, 2.0 - 0.5 * dp, std::pow(0.4 / dp, 4)});
