@@ -219,7 +219,7 @@ void GrainSystem<Exec>::choose_skin(double moved) {
   const long steps = substeps_ - listed_at_;
   listed_at_ = substeps_;
   if (contact_.skin > 0.0 || steps == 0) return;
-  const double best = std::sqrt(8.0 * moved / static_cast<double>(steps) * mean_diameter_);
+  const double best = std::sqrt(13.0 * moved / static_cast<double>(steps) * mean_diameter_);
   skin_ = std::clamp(std::sqrt(best * skin_), smallest_skin * mean_diameter_, largest_skin * mean_diameter_);
 }
 
