@@ -40,6 +40,7 @@ void GrainFluidCoupling<Exec>::rebuild(const dem::GrainSystem<Exec>& grains, con
   nodes_.build(grain_grid, {grains.places(), grains.ids(), grains.slots()},
                {fluid.positions(), fluid.ids(), fluid.slots()}, skin);
   node_sums_.resize_discard(static_cast<std::size_t>(nodes_.clusters()) * node_rows);
+  walls_summed_ = false;
   const auto cutoff = static_cast<float>(lattice_.reach() + skin);
   const CellGridView node_grid = nodes_.set().view();
   node_grain_.build(node_grid, nodes_.records(), grain_grid, record_.data(), cutoff);
@@ -91,8 +92,11 @@ void GrainFluidCoupling<Exec>::find_porosity(const dem::GrainSystem<Exec>& grain
   const Index nodes = nodes_.clusters();
   float* sums = node_sums_.data();
   pack_water(fluid);
-  exec::pair_pass(exec_, "coupling::room", nodes,
-                  AddAtNodes{walls_at_nodes(fluid), nullptr, 0, lattice_volume(), sums + node_wall});
+  if (!walls_summed_ || fluid.walls_move()) {
+    exec::pair_pass(exec_, "coupling::walls", nodes,
+                    AddAtNodes{walls_at_nodes(fluid), nullptr, 0, lattice_volume(), sums + node_wall});
+    walls_summed_ = true;
+  }
   exec::pair_pass(exec_, "coupling::room", nodes,
                   AddAtNodes{water_at_nodes(fluid), water_.data(), water_rows, 1.0f, sums + node_water});
   nodes_.fill_bricks("coupling::bricks", sums, node_rows, RoomOfNodes{});

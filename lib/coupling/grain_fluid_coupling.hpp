@@ -99,6 +99,7 @@ class GrainFluidCoupling {
   ClusterList<Exec> node_grain_, node_fluid_, node_wall_;
   float wall_factor_;             ///< of the wall's share: three layers of particles stand for a wall without end
   Array<float, Exec> node_sums_;  ///< rows of coupling_passes.hpp, per cluster of nodes
+  bool walls_summed_ = false;     ///< at the nodes; walls at rest are summed once a rebuild
   Array<float, Exec> real_diameter_;
   Array<float, Exec> record_;           ///< x y z V w/N | D/N (3) and offset (coupling.buoyancy), 4 each, per cluster
   Array<float, Exec> sums_;             ///< GrainSum of coupling_slots.hpp, per slot

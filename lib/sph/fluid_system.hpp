@@ -91,6 +91,7 @@ class FluidSystem {
   /// No grains in reach: porosity 1, no reaction.
   void reset_coupling();
   bool coupled() const { return coupled_; }
+  bool walls_move() const { return walls_move_; }
   /// At the start, once porosity is known: superficial densities of water that fills pores at its true density, and
   /// masses where the table has more particles than the pores have room for. `first`: densities are still the true
   /// ones, and are kept; again, with a better porosity, before anything is sorted.
