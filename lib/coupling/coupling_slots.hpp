@@ -93,6 +93,22 @@ struct Deposit {
   }
 };
 
+GDESP_HD inline float porosity_of(const float* read) { return real::max(1.0f - read[sum_solid], least_porosity); }
+
+// How far the porosity of the water is from what it read of the nodes.
+struct PorosityOff {
+  const std::uint32_t* id;
+  const float* read;  // four a slot
+  const float* porosity;
+  GDESP_HD float operator()(Index s) const {
+    const float off = porosity_of(read + 4 * static_cast<std::int64_t>(s)) - porosity[s];
+    return id[s] == no_particle ? 0.0f : real::max(off, -off);
+  }
+};
+struct Larger {
+  GDESP_HD float operator()(float a, float b) const { return a > b ? a : b; }
+};
+
 // Porosity of the water, and the room that walls leave it, from what it read of the nodes.
 struct RoomOfWater {
   const float* read;  // four a slot
@@ -105,7 +121,7 @@ struct RoomOfWater {
     const float* q = read + 4 * static_cast<std::int64_t>(s);
     water[water_rows * static_cast<std::int64_t>(s / exec::cluster_size) + s % exec::cluster_size + water_boost] =
         1.0f / open_share(wall_factor * q[sum_wall]);
-    const float found = real::max(1.0f - q[sum_solid], least_porosity);
+    const float found = porosity_of(q);
     // Opened water takes its room from the porosity before: half of the way, so that the two settle.
     const bool opened = starting || 1.0f + density[s] < 0.98f * porosity[s];
     porosity[s] = opened ? 0.5f * (found + porosity[s]) : found;

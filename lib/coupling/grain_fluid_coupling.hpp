@@ -82,6 +82,7 @@ class GrainFluidCoupling {
  private:
   enum class Start { none, guess, settle };
   void find_porosity(const dem::GrainSystem<Exec>& grains, sph::FluidSystem<Exec>& fluid, Start start);
+  void take_porosity(sph::FluidSystem<Exec>& fluid, Start start);
   float lattice_volume() const;  ///< m3, or m2 in two dimensions
   void pack_water(const sph::FluidSystem<Exec>& fluid);
   // What nodes add up, and who reads them.
