@@ -18,8 +18,8 @@ struct PlainPass {
   float c2, diffusion;  // m2/s2, m2/s
   ClusterListView list;
   const float* record;
-  const float* mass_share;
-  float* rate;  // ax ay az dD, 4 each, per cluster
+  const float* mass_share;  // null: 1
+  float* rate;              // ax ay az dD, 4 each, per cluster
 };
 
 inline PlainPass plain_pass(sph::FluidSystem<exec::OpenMP>& fluid, float* rate) {
@@ -48,7 +48,7 @@ struct ScalarPass {
               ri[20] - rj[20], ri[24] - rj[24], ri[28], rj[28], rj[12], 1.0f, sum);
         }
       });
-      const float volume = ri[12] / p.mass_share[4 * static_cast<std::int64_t>(c) + i];
+      const float volume = p.mass_share ? ri[12] / p.mass_share[4 * static_cast<std::int64_t>(c) + i] : ri[12];
       float* out = p.rate + 16 * static_cast<std::int64_t>(c) + i;
       out[0] = p.c2 * volume * sum.ax;
       out[4] = p.c2 * volume * sum.ay;
@@ -110,7 +110,7 @@ struct HandWrittenPass {
     });
     float* out = p.rate + 16 * static_cast<std::int64_t>(c);
     for (int i = 0; i < 4; ++i) {
-      const float volume = ri[12 + i] / p.mass_share[4 * static_cast<std::int64_t>(c) + i];
+      const float volume = p.mass_share ? ri[12 + i] / p.mass_share[4 * static_cast<std::int64_t>(c) + i] : ri[12 + i];
       out[i] = p.c2 * volume * of_own(ax, i);
       out[4 + i] = p.c2 * volume * of_own(ay, i);
       out[8 + i] = p.c2 * volume * of_own(az, i);
