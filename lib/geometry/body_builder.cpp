@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <utility>
 
 #include "core/error.hpp"
 #include "geometry/solitary_wave.hpp"
@@ -34,11 +35,13 @@ PrescribedMotion read_motion(const std::string& path) {
   if (!in) throw Error(ErrorKind::input, path + ": cannot be opened (motion_csv: t,dx,dy,dz)");
   PrescribedMotion motion;
   std::string line;
+  bool first = true;
   for (int number = 1; std::getline(in, line); ++number) {
     if (line.find_first_not_of(" \t\r") == std::string::npos || line.front() == '#') continue;
     double v[4];
+    const bool may_be_header = std::exchange(first, false);
     if (!four_numbers(line, v)) {
-      if (motion.time.empty() && number == 1) continue;  // a header
+      if (may_be_header) continue;
       throw Error(ErrorKind::input, path + ":" + std::to_string(number) + ": expected t,dx,dy,dz (s, m), found \"" +
                                         line.substr(0, 60) + "\"");
     }

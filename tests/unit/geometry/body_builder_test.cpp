@@ -90,7 +90,7 @@ TEST(Motion, ConstantVelocityBetweenStartAndStop) {
 
 TEST(Motion, CsvIsReadAndItsMistakesAreNamed) {
   const Folder folder;
-  const PrescribedMotion m = read_motion(folder.write("a.csv", "t,dx,dy,dz\n0,0,0,0\n0.5,1,0,-1\n"));
+  const PrescribedMotion m = read_motion(folder.write("a.csv", "# whose\nt,dx,dy,dz\n0,0,0,0\n0.5,1,0,-1\n"));
   ASSERT_EQ(m.time.size(), 2u);
   EXPECT_EQ(m.displacement[1].z, -1.0);
   EXPECT_MENTIONS(input_error([&] { read_motion(folder.write("b.csv", "0,0,0,0\n1,2\n")); }), "b.csv:2");
