@@ -106,7 +106,7 @@ struct PorosityOff {
   }
 };
 struct Larger {
-  GDESP_HD float operator()(float a, float b) const { return a > b ? a : b; }
+  GDESP_HD float operator()(float a, float b) const { return real::max(a, b); }
 };
 
 // Porosity of the water, and the room that walls leave it, from what it read of the nodes.

@@ -42,7 +42,7 @@ struct GrainStep {
     using real::select;
     ContactRow& row = v.contacts.rows[index];
     const I j = lanes.load(row.neighbour);
-    const float* records = reinterpret_cast<const float*>(v.now);
+    const float* records = reinterpret_cast<const float*>(v.grains.record);
     R q[4];
     lanes.gather4(records, record_floats, j, q);
     const Vec3<R> r{lanes.value(I(own.x) - lanes.bits(q[0])) * R(v.unit.metres.x),
@@ -190,20 +190,20 @@ struct GrainStep {
       exec::store4(next + 8, exec::with_last_of(surface, Float4{1.0f, 1.0f, 1.0f, 1.0f}));
       exec::store4(next + 12, exec::with_last_of(wanted - whole, exec::load4(record + 12)));
     }
-    const Float4 moved = exec::value(place - exec::load3(GrainPlaces{v.listed, v.now}.listed_bits(i))) * unit;
+    const Float4 moved = exec::value(place - exec::load3(v.grains.listed_bits(i))) * unit;
     const float speed2 = exec::dot3(velocity, velocity);
     return {{exec::dot3(moved, moved), speed2, overlap, speed2 + exec::dot3(surface, surface) < 1.0e12f ? 0.0f : 1.0f}};
   }
 
   // Asks for the records that grain i will gather (host only: a device hides the wait by other warps).
   void prefetch(Index i) const {
-    for (const Index j : v.contacts.rows[i].neighbour) __builtin_prefetch(v.now + j);
+    for (const Index j : v.contacts.rows[i].neighbour) __builtin_prefetch(v.grains.record + j);
   }
 
   template <class Lanes>
   GDESP_HD exec::Largest operator()(Index i, const Lanes& lanes) const {
     using R = typename Lanes::Real;
-    const GrainRecord& own = v.now[i];
+    const GrainRecord& own = v.grains.record[i];
     if (own.radius < 0.0f) return {};
     if (own.mobility == 0.0f) {
       if (lanes.leader()) {

@@ -12,12 +12,11 @@ namespace gdesp::dem {
 struct GrainStepView {
   ContactRowsView contacts;
   PositionUnit unit;
-  const GrainRecord* now;  ///< slots + 1 records
+  GrainPlaces grains;  ///< slots + 1 records
   GrainRecord* next;
-  const FixedPosition* listed;  ///< when the lists were made
-  Vec3f* velocity;              ///< m/s, at half steps
-  Vec3f* spin;                  ///< rad/s, at half steps
-  const WallForce* walls;       ///< by GrainRecord::wall
+  Vec3f* velocity;         ///< m/s, at half steps
+  Vec3f* spin;             ///< rad/s, at half steps
+  const WallForce* walls;  ///< by GrainRecord::wall
   FluidOnGrains fluid;
   Vec3f gravity;                ///< m/s2
   float inertia_factor = 0.4f;  ///< I / (m R^2)

@@ -41,6 +41,7 @@ struct CopyRecords {
   GDESP_HD void operator()(Index slot) const { to[slot] = from[slot]; }
 };
 
+// Grains are listed where they are.
 struct FollowRecords {
   GrainPlaces grains;
   FixedPosition* listed;
@@ -293,9 +294,8 @@ void GrainSystem<Exec>::run(const ContactLaws<Law>& pair, const ContactLaws<Law>
   if (walls_.grains() > 0) { walls_.step(wall, {places(), half, inertia}, in_batch, gate, measure); }
   GrainStepView view{contacts_.view(),
                      position_unit(domain_),
-                     now_.data(),
+                     places(),
                      next_.data(),
-                     position_.data(),
                      velocity_.data(),
                      spin_.data(),
                      walls_.forces(),

@@ -59,9 +59,6 @@ struct Layout {
 };
 Layout lay_out(const Scene& scene, Notes& notes);
 
-/// Whether the domain repeats along the axis (0: x, 1: y, 2: z).
-bool is_periodic(const Scene& scene, int axis);
-
 /// Offset that brings large coordinates near zero: per axis, 0 unless the coordinates exceed twice the largest extent.
 Vec3d choose_offset(const Box& box, int dimensions);
 

@@ -120,10 +120,6 @@ void warn_of_odd_tanks(const SceneParts& parts, const Scene& scene, Notes& notes
 
 }  // namespace
 
-bool is_periodic(const Scene& scene, int axis) {
-  return std::find(scene.periodic.begin(), scene.periodic.end(), std::string(1, "xyz"[axis])) != scene.periodic.end();
-}
-
 Vec3d choose_offset(const Box& box, int dimensions) {
   const Vec3d size = extent(box);
   const double length = std::max({size.x, dimensions == 2 ? 0.0 : size.y, size.z});

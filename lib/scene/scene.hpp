@@ -4,6 +4,7 @@
 // Two dimensions means the vertical plane x-z: y is ignored.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -231,6 +232,11 @@ struct Scene {
   std::vector<Section> sections;
   std::vector<Region> regions;
 };
+
+/// Whether the domain repeats along the axis (0: x, 1: y, 2: z).
+inline bool is_periodic(const Scene& scene, int axis) {
+  return std::find(scene.periodic.begin(), scene.periodic.end(), std::string(1, "xyz"[axis])) != scene.periodic.end();
+}
 
 /// A --set override, e.g. {"resolution.dp", "5.0"}; the value is TOML, or a bare word taken as a string.
 struct Override {

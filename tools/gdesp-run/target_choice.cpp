@@ -33,12 +33,12 @@ RunUpFit fit_run_up(const std::vector<Pilot>& pilots) {
 
 namespace {
 
+bool is_finer(const Pilot& a, const Pilot& b) { return a.dp < b.dp; }
 const Pilot& finest(const std::vector<Pilot>& pilots) {
-  return *std::min_element(pilots.begin(), pilots.end(), [](const Pilot& a, const Pilot& b) { return a.dp < b.dp; });
+  return *std::min_element(pilots.begin(), pilots.end(), is_finer);
 }
-
-double coarsest_of(const std::vector<Pilot>& pilots) {
-  return std::max_element(pilots.begin(), pilots.end(), [](const Pilot& a, const Pilot& b) { return a.dp < b.dp; })->dp;
+const Pilot& coarsest(const std::vector<Pilot>& pilots) {
+  return *std::max_element(pilots.begin(), pilots.end(), is_finer);
 }
 
 }  // namespace
@@ -89,9 +89,6 @@ double parse_duration(const std::string& text) {
 }
 
 double common_length(const Scene& scene) {
-  const auto has = [](const std::vector<std::string>& names, const std::string& name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
-  };
   std::vector<double> lengths;
   std::optional<double> floor;
   for (const Wall& wall : scene.walls) {
@@ -100,13 +97,12 @@ double common_length(const Scene& scene) {
     if (!floor) floor = wall.tank->lower.z;
     lengths.push_back(size.x);
     if (scene.dimensions == 3) lengths.push_back(size.y);
-    if (!has(wall.open, "top")) lengths.push_back(size.z);
+    if (std::find(wall.open.begin(), wall.open.end(), "top") == wall.open.end()) lengths.push_back(size.z);
   }
   if (!floor) return 0.0;
   if (scene.domain)
     for (int axis = 0; axis < 3; ++axis)
-      if (has(scene.periodic, std::string(1, "xyz"[axis])))
-        lengths.push_back(scene.domain->upper[axis] - scene.domain->lower[axis]);
+      if (is_periodic(scene, axis)) lengths.push_back(scene.domain->upper[axis] - scene.domain->lower[axis]);
   for (const FluidFill& fill : scene.fluid.fill) {
     if (fill.kind == "level") lengths.push_back(fill.level - *floor);
     if (fill.box) lengths.push_back(fill.box->upper.z - fill.box->lower.z);
@@ -126,8 +122,7 @@ double coarsest_dp(const Scene& scene) {
   for (const Slide& slide : scene.slides) {
     if (slide.kind != "granular" || slide.diameter <= 0.0) continue;
     for (int axis = 0; axis < 3; ++axis) {
-      if (std::find(scene.periodic.begin(), scene.periodic.end(), std::string(1, "xyz"[axis])) == scene.periodic.end())
-        continue;
+      if (!is_periodic(scene, axis)) continue;
       const double period = scene.domain->upper[axis] - scene.domain->lower[axis];
       coarsest = std::min(coarsest, period / 6.0 * scene.dp / slide.diameter);
     }
@@ -163,9 +158,8 @@ Choice choose_dp(const std::vector<Pilot>& pilots, const Targets& targets, int d
   } else {
     choice = {affordable, 0.0, 0.0, true, "all that the budget pays for"};
   }
-  const double coarsest = coarsest_of(pilots);
-  if (choice.dp > coarsest) {
-    choice.dp = coarsest;
+  if (choice.dp > coarsest(pilots).dp) {
+    choice.dp = coarsest(pilots).dp;
     choice.reason = "that of the coarsest pilot; the budget pays for less";
   }
   const double ratio = cost_ratio(finest(pilots), choice.dp, dimensions);
