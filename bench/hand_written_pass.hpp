@@ -104,9 +104,10 @@ struct HandWrittenPass {
       ay = _mm512_fmadd_ps(push, dy, ay);
       az = _mm512_fmadd_ps(push, dz, az);
       compression = _mm512_fnmadd_ps(G, vr, compression);
-      const __m512 head =
-          _mm512_fmadd_ps(gz, dz, _mm512_fmadd_ps(gy, dy, _mm512_fmadd_ps(gx, dx, _mm512_sub_ps(aj, a))));
-      diffusion = _mm512_fmadd_ps(G, head, diffusion);
+      const __m512 jump = _mm512_sub_ps(aj, a);
+      const __m512 head = _mm512_fmadd_ps(gz, dz, _mm512_fmadd_ps(gy, dy, _mm512_fmadd_ps(gx, dx, jump)));
+      const __m512 kept = _mm512_max_ps(_mm512_min_ps(head, _mm512_max_ps(jump, zero)), _mm512_min_ps(jump, zero));
+      diffusion = _mm512_fmadd_ps(G, kept, diffusion);
     });
     float* out = p.rate + 16 * static_cast<std::int64_t>(c);
     for (int i = 0; i < 4; ++i) {

@@ -21,11 +21,14 @@
 //   Extrapolated walls count (2 - eps_i) times, eps: porosity: at 2 a wall moves as the mirror of the water and does no work;
 //   at 1, as without grains, it works on water in pores without end (docs/decisions/0048).
 // @eq sph.density-diffusion
-//   delta h c sum_j 2 (rho_j - rho_i - rho^H_ij) (r_ji . grad_i W)/r^2 V_j, rho^H_ij = rho0 g.(r_j - r_i)/c^2, so that
-//   hydrostatics stay still; a rate of density [kg/(m3 s)]. delta [1]; h [m]; c [m/s]. Acts on the true density (through A), so
-//   times eps_i for the superficial one; between grains rho is that of the mixture pressure, which the momentum sees: diffusion that
-//   evens out another pressure feeds energy into beds at rest (docs/decisions/0043). Fluid pairs only.
-//   Source: Fourtakas et al. (2019), Comput. Fluids 190, 346, doi:10.1016/j.compfluid.2019.06.009.
+//   delta h c sum_j 2 minmod(rho_j - rho_i, rho_j - rho_i - rho^H_ij) (r_ji . grad_i W)/r^2 V_j, rho^H_ij = rho0 g.(r_j - r_i)/c^2, so
+//   that hydrostatics stay still; a rate of density [kg/(m3 s)]. minmod(a, b): the smaller, 0 where signs differ. delta [1]; h [m];
+//   c [m/s]. Acts on the true density (through A), so times eps_i for the superficial one; between grains rho is that of the mixture
+//   pressure, which the momentum sees: diffusion that evens out another pressure feeds energy into beds at rest (docs/decisions/0043).
+//   Fluid pairs only. What a pair exchanges has the sign of its own difference of pressure, so that it never makes energy: without
+//   the minmod still water rose for ever (docs/decisions/0055).
+//   Source: Fourtakas et al. (2019), Comput. Fluids 190, 346, doi:10.1016/j.compfluid.2019.06.009; the sign: Fjordholm, Mishra,
+//   Tadmor (2012), SIAM J. Numer. Anal. 50, 544, doi:10.1137/110836961.
 #pragma once
 
 #include "core/host_device.hpp"
@@ -39,7 +42,7 @@ template <class Real>
 struct FluidRates {
   Real ax{0.0f}, ay{0.0f}, az{0.0f};  ///< acceleration / (c^2 B_i), 1/m (pressure and viscosity)
   Real compression{0.0f};             ///< -sum_j G B_j v_ij . r_ij, 1/s
-  Real diffusion{0.0f};               ///< sum_j G B_j (A_j - A_i + g . r_ij / c^2), 1/m^2
+  Real diffusion{0.0f};               ///< sum_j G B_j minmod(A_j - A_i, A_j - A_i + g . r_ij / c^2), 1/m^2
 };
 
 /// Coefficients of the pair terms, SI, prepared once.
@@ -84,7 +87,10 @@ GDESP_HD inline void add_fluid_pair(const FluidPairLaw& law, const Real& rx, con
   if constexpr (WithContinuity) {
     rates.compression -= G * vr;
     if constexpr (WithDiffusion) {
-      rates.diffusion += G * (A_j - A_i + Real(law.gx) * rx + Real(law.gy) * ry + Real(law.gz) * rz);
+      const Real jump = A_j - A_i;
+      const Real unbalanced = jump + Real(law.gx) * rx + Real(law.gy) * ry + Real(law.gz) * rz;
+      const Real zero(0.0f);
+      rates.diffusion += G * max(min(unbalanced, max(jump, zero)), min(jump, zero));
     }
   }
 }

@@ -59,8 +59,10 @@ Reference brute_force(const SimulationInput& input, std::size_t i) {
     const double Pi = -p.artificial_viscosity * p.h * p.sound_speed * std::min(0.0, dot(v, r)) /
                       (distance * distance + 0.01 * p.h * p.h);
     out.acceleration += r * (V * G * (c2 * (A(i) + A(j)) + Pi) / (1.0 + D(i)));
-    out.dD += -(1.0 + D(i)) * V * G * dot(v, r) +
-              2.0 * p.density_diffusion * p.h * p.sound_speed * V * G * (A(j) - A(i) + dot(p.gravity, r) / c2);
+    const double jump = A(j) - A(i), unbalanced = jump + dot(p.gravity, r) / c2;
+    const double exchanged =
+        jump * unbalanced > 0.0 ? std::copysign(std::min(std::abs(jump), std::abs(unbalanced)), jump) : 0.0;
+    out.dD += -(1.0 + D(i)) * V * G * dot(v, r) + 2.0 * p.density_diffusion * p.h * p.sound_speed * V * G * exchanged;
   }
   return out;
 }

@@ -139,6 +139,24 @@ TEST(FluidPair, hand_values) {
   EXPECT_NEAR(rates.diffusion, 0.25f * (0.2f - 0.05f * 0.8f), 1e-6);
 }
 
+TEST(FluidPair, diffusion_is_never_against_nor_above_the_difference_of_pressure) {
+  const FluidPairLaw law = law_for(1.0);
+  const auto diffusion = [&](float rz, float jump) {
+    FluidRates<float> rates;  // G = 0.25, as above
+    add_fluid_pair<false, true, Viscosity::none, true>(law, std::sqrt(1.0f - rz * rz), 0.0f, rz, 0.0f, 0.0f, 0.0f, 0.1f,
+                                                       0.1f + jump, 1.0f, 1.0f, rates);
+    return rates.diffusion / 0.25f;
+  };
+  EXPECT_NEAR(diffusion(0.8f, 0.04f), 0.0f, 1e-7) << "hydrostatic: j lies below i";
+  EXPECT_NEAR(diffusion(0.8f, 0.1f), 0.06f, 1e-7);
+  EXPECT_NEAR(diffusion(-0.8f, 0.1f), 0.1f, 1e-7) << "j lies above i and has the higher pressure: all of it, not 0.14";
+  EXPECT_EQ(diffusion(0.8f, 0.03f), 0.0f) << "less than hydrostatic: not made larger";
+  EXPECT_EQ(diffusion(-0.8f, -0.03f), 0.0f);
+  for (float rz = -0.9f; rz < 1.0f; rz += 0.1f)
+    for (float jump = -0.1f; jump < 0.1f; jump += 0.007f)
+      EXPECT_GE(diffusion(rz, jump) * jump, 0.0f) << rz << " " << jump;
+}
+
 TEST(FluidPair, separating_particles_feel_no_artificial_viscosity) {
   const FluidPairLaw law = law_for(1.0);
   FluidRates<float> with, without;

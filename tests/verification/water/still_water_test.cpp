@@ -60,6 +60,27 @@ TEST(StillWater, is_still_before_and_after_the_lattice_gives_way) {
   EXPECT_LT(highest_speed(*simulation, 8.0), 0.005);
 }
 
+// Energy: of the weight over one spacing, which is all that water at rest could spend. Diffusion that drives pressures apart made 3 %
+// (docs/decisions/0055).
+TEST(StillWater, makes_no_energy) {
+  const double dp = 0.02;
+  SimulationInput input = still_tank(dp, 2, 2.0);
+  test::rest_rows(input, depth);
+  auto simulation = make_simulation(input, "cpu");
+  const auto energy = [&] {
+    const Diagnostics d = simulation->diagnostics();
+    return d.fluid_kinetic + d.fluid_potential + d.fluid_elastic;
+  };
+  double least = energy(), created = 0.0;
+  for (double t = 0.1; t < 10.0; t += 0.1) {
+    simulation->advance_to(t);
+    const double now = energy();
+    created = std::max(created, now - least);
+    least = std::min(least, now);
+  }
+  EXPECT_LT(created, 1e-3 * simulation->diagnostics().fluid_mass * g * dp);
+}
+
 // Rows that are not shifted fall and rise by a twentieth of a spacing first.
 TEST(StillWater, rows_at_rest_are_what_keeps_its_surface_from_moving_at_the_start) {
   SimulationInput shifted = still_tank(0.01, 2);
