@@ -22,7 +22,7 @@
 //   at 1, as without grains, it works on water in pores without end (docs/decisions/0048).
 // @eq sph.density-diffusion
 //   delta h c sum_j 2 minmod(rho_j - rho_i, rho_j - rho_i - rho^H_ij) (r_ji . grad_i W)/r^2 V_j, rho^H_ij = rho0 g.(r_j - r_i)/c^2, so
-//   that hydrostatics stay still; a rate of density [kg/(m3 s)]. minmod(a, b): the smaller, 0 where signs differ. delta [1]; h [m];
+//   that hydrostatics stay still; a rate of density [kg/(m3 s)]. minmod(a, b): the smaller in size, 0 where signs differ. delta [1]; h [m];
 //   c [m/s]. Acts on the true density (through A), so times eps_i for the superficial one; between grains rho is that of the mixture
 //   pressure, which the momentum sees: diffusion that evens out another pressure feeds energy into beds at rest (docs/decisions/0043).
 //   Fluid pairs only. What a pair exchanges has the sign of its own difference of pressure, so that it never makes energy: without
