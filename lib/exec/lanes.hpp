@@ -176,6 +176,12 @@ struct HostLanes {
   static void store_sum_i(float* p, const Real& a) {
     for (int i = 0; i < 4; ++i) p[i] = (a.v[4 * i] + a.v[4 * i + 1]) + (a.v[4 * i + 2] + a.v[4 * i + 3]);
   }
+  /// The same sum, in each of the four lanes of i.
+  static Real sum_i(const Real& a) {
+    float of_i[4];
+    store_sum_i(of_i, a);
+    return load_i(of_i);
+  }
   /// p[i] = largest of the four lanes of i.
   static void store_max_i(float* p, const Real& a) {
     for (int i = 0; i < 4; ++i) p[i] = max(max(a.v[4 * i], a.v[4 * i + 1]), max(a.v[4 * i + 2], a.v[4 * i + 3]));

@@ -5,6 +5,7 @@
 #include "sph/tait.hpp"
 #include "sph/wall_extrapolation.hpp"
 #include "sph/wall_guard.hpp"
+#include "sph/wall_volume.hpp"
 
 namespace gdesp::sph {
 namespace {
@@ -25,7 +26,7 @@ struct FluidPass {
   const float* porosity;      // null: 1
   const float* own_pressure;  // null: A of the record
   const float* wall_ghost;    // null: no no-slip walls
-  bool extrapolated_walls;
+  const float* wall_volume;   // null: none is handed back (`dynamic` walls)
   float* rate;
   bool trims;
   ClusterTrim fluid_trim, wall_trim;
@@ -68,16 +69,18 @@ struct FluidPass {
       const float* rj = fluid + record_offset(j);
       add_cluster<false>(lanes, i, rj, rj + row_vx, Real(1.0f), shift, rates);
     });
-    const Real between_water = rates.compression;
+    Real of_walls(0.0f);
     for_each_cluster(wall_list, c, [&](Index j, const Vec3f& shift) {
       const float* rj = walls + record_offset(j);
       const float* vj = wall_ghost ? wall_ghost + 16 * static_cast<std::int64_t>(j) : rj + row_vx;
       add_cluster<true>(lanes, i, rj, vj, lanes.load_j(wall_friction + 4 * static_cast<std::int64_t>(j)), shift, rates);
+      if (WithContinuity && wall_volume) {
+        const Real w =
+            wendland_at(law.inverse_support, i.x + Real(shift.x) - lanes.load_j(rj + row_x),
+                        i.y + Real(shift.y) - lanes.load_j(rj + row_y), i.z + Real(shift.z) - lanes.load_j(rj + row_z));
+        of_walls += w * lanes.load_j(wall_volume + 4 * static_cast<std::int64_t>(j));
+      }
     });
-    if (WithContinuity && porosity && extrapolated_walls) {  // walls count 2 - eps times
-      const Real solid = Real(1.0f) - lanes.load_i(porosity + 4 * static_cast<std::int64_t>(c));
-      rates.compression += solid * (rates.compression - between_water);
-    }
     float* out = rate + 16 * static_cast<std::int64_t>(c);
     // V_i / (m_i / rho0), that is rho0 / rho_i (and 1 in the form of the paper).
     Real specific_volume = lanes.load_i(ri + row_B);
@@ -92,7 +95,8 @@ struct FluidPass {
       // Diffusion acts on the true density, the rate is that of the superficial one.
       Real diffused = Real(diffusion) * rates.diffusion;
       if (porosity) diffused = diffused * lanes.load_i(porosity + 4 * static_cast<std::int64_t>(c));
-      lanes.store_sum_i(out + 12, rates.compression / specific_volume + diffused);
+      const Real compression = rates.compression + of_walls / lanes.load_i(ri + row_B);
+      lanes.store_sum_i(out + 12, compression / specific_volume + diffused);
     }
   }
 };
@@ -108,16 +112,13 @@ struct LatticeShare {
   GDESP_HD typename Lanes::Real sum(const ClusterListView& list, Index c, const float* others,
                                     const Lanes& lanes) const {
     using Real = typename Lanes::Real;
-    using real::max;
-    using real::sqrt;
     const float* ri = fluid + record_offset(c);
     const Real x = lanes.load_i(ri + row_x), y = lanes.load_i(ri + row_y), z = lanes.load_i(ri + row_z);
     Real total(0.0f);
     for_each_cluster(list, c, [&](Index j, const Vec3f& shift) {
       const float* rj = others + record_offset(j);
-      const Real dx = x + Real(shift.x) - lanes.load_j(rj + row_x), dy = y + Real(shift.y) - lanes.load_j(rj + row_y),
-                 dz = z + Real(shift.z) - lanes.load_j(rj + row_z);
-      total += wendland_shape(max(Real(0.0f), Real(1.0f) - sqrt(dx * dx + dy * dy + dz * dz) * Real(inverse_support)));
+      total += wendland_at(inverse_support, x + Real(shift.x) - lanes.load_j(rj + row_x),
+                           y + Real(shift.y) - lanes.load_j(rj + row_y), z + Real(shift.z) - lanes.load_j(rj + row_z));
     });
     return total * Real(scale);
   }
@@ -201,6 +202,43 @@ struct FinishWalls {
       const float wall = r[row_vx + row];
       ghost[at + row] = slides ? wall : wall + share * (wall - ghost[at + row] / weight);
     }
+  }
+};
+
+// What walls hand back to the water around them (sph.wall.volume).
+struct MeasureWallVolume {
+  FluidPairLaw law;
+  ClusterListView list;
+  const float* fluid;
+  const float* walls;
+  const float* porosity;  // of the water; null: 1
+  const float* surface;   // nx ny nz depth, 4 each, per cluster; null: unknown
+  float* volume;
+
+  template <class Lanes>
+  GDESP_HD void operator()(Index c, const Lanes& lanes) const {
+    using Real = typename Lanes::Real;
+    const float* ri = walls + record_offset(c);
+    const Real x = lanes.load_i(ri + row_x), y = lanes.load_i(ri + row_y), z = lanes.load_i(ri + row_z);
+    const Real vx = lanes.load_i(ri + row_vx), vy = lanes.load_i(ri + row_vy), vz = lanes.load_i(ri + row_vz);
+    WallVolumeSums<Real> sums;
+    for_each_cluster(list, c, [&](Index j, const Vec3f& shift) {
+      const float* rj = fluid + record_offset(j);
+      const Real r[3] = {x + Real(shift.x) - lanes.load_j(rj + row_x), y + Real(shift.y) - lanes.load_j(rj + row_y),
+                         z + Real(shift.z) - lanes.load_j(rj + row_z)};
+      const Real v[3] = {vx - lanes.load_j(rj + row_vx), vy - lanes.load_j(rj + row_vy),
+                         vz - lanes.load_j(rj + row_vz)};
+      const Real eps = porosity ? lanes.load_j(porosity + 4 * static_cast<std::int64_t>(j)) : Real(1.0f);
+      add_wall_volume(law, r, v, lanes.load_j(rj + row_B), eps, sums);
+    });
+    const WallVolumeSums<Real> all{lanes.sum_i(sums.weight), lanes.sum_i(sums.compression), lanes.sum_i(sums.vx),
+                                   lanes.sum_i(sums.vy),     lanes.sum_i(sums.vz),          lanes.sum_i(sums.gx),
+                                   lanes.sum_i(sums.gy),     lanes.sum_i(sums.gz)};
+    const float* sn = surface + 16 * static_cast<std::int64_t>(c);
+    const Real none(0.0f);
+    const Real n[3] = {surface ? lanes.load_i(sn) : none, surface ? lanes.load_i(sn + 4) : none,
+                       surface ? lanes.load_i(sn + 8) : none};
+    lanes.store_max_i(volume + 4 * static_cast<std::int64_t>(c), wall_volume(all, n, lanes.load_i(ri + row_B)));
   }
 };
 
@@ -357,19 +395,28 @@ template <bool M, bool C, Viscosity K>
 void FluidSystem<Exec>::run_fluid_pass_kind(const char* name) {
   const FluidParameters& p = parameters_;
   const auto cutoff = static_cast<float>(2.0 * p.h + trim_skin_);
+  const bool volume = C && p.extrapolated_walls && wall_set_.clusters() > 0;
+  if (volume) {
+    exec::pair_pass(exec_, "sph::wall_volume", near_walls_.count(),
+                    chosen_clusters(near_walls_.list(),
+                                    MeasureWallVolume{pair_law(), wall_fluid_.view(), record_.data(),
+                                                      wall_record_.data(), porous_ ? porosity_.data() : nullptr,
+                                                      guarded_ ? wall_surface_.data() : nullptr, wall_rate_.data()}));
+  }
   const bool trims = M && trims_next_;
   if (trims) trims_next_ = false;
   exec::pair_pass(
       exec_, name, awake_clusters(),
-      chosen_clusters(awake_list(), FluidPass<M, C, K>{
-                                        pair_law(), static_cast<float>(p.sound_speed * p.sound_speed),
-                                        static_cast<float>(2.0 * p.density_diffusion * p.h * p.sound_speed),
-                                        fluid_fluid_.view(), fluid_wall_.view(), record_.data(), wall_record_.data(),
-                                        wall_friction_.data(), mass_share_.data(), porous_ ? porosity_.data() : nullptr,
-                                        M && !C && p.tensile_control ? own_pressure_.data() : nullptr,
-                                        M && !C && no_slip_ ? wall_ghost_.data() : nullptr, p.extrapolated_walls,
-                                        rate_.data(), trims, fluid_fluid_.trim(record_.data(), record_.data(), cutoff),
-                                        fluid_wall_.trim(record_.data(), wall_record_.data(), cutoff)}));
+      chosen_clusters(
+          awake_list(),
+          FluidPass<M, C, K>{pair_law(), static_cast<float>(p.sound_speed * p.sound_speed),
+                             static_cast<float>(2.0 * p.density_diffusion * p.h * p.sound_speed), fluid_fluid_.view(),
+                             fluid_wall_.view(), record_.data(), wall_record_.data(), wall_friction_.data(),
+                             mass_share_.data(), porous_ ? porosity_.data() : nullptr,
+                             M && !C && p.tensile_control ? own_pressure_.data() : nullptr,
+                             M && !C && no_slip_ ? wall_ghost_.data() : nullptr, volume ? wall_rate_.data() : nullptr,
+                             rate_.data(), trims, fluid_fluid_.trim(record_.data(), record_.data(), cutoff),
+                             fluid_wall_.trim(record_.data(), wall_record_.data(), cutoff)}));
 }
 
 template <class Exec>

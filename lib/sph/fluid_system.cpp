@@ -240,10 +240,8 @@ void FluidSystem<Exec>::sort_walls() {
     wall_ghost_.resize_discard(4 * static_cast<std::size_t>(n));
     wall_ghost_.fill_bytes(0);
   }
-  if (!parameters_.extrapolated_walls) {
-    wall_rate_.resize_discard(static_cast<std::size_t>(n));
-    wall_rate_.fill_bytes(0);
-  }
+  wall_rate_.resize_discard(static_cast<std::size_t>(n));
+  wall_rate_.fill_bytes(0);
   exec::parallel_for(exec_, "sph::walls_reset", n,
                      EvolvedWallReset{wall_density_.data(), parameters_.paper_form, wall_record_.data()});
   pack_walls();

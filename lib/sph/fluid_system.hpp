@@ -216,7 +216,8 @@ class FluidSystem {
   Array<float, Exec> wall_density_;
   Array<float, Exec> wall_friction_;  ///< 1: no slip, 0: free slip
   Array<std::uint32_t, Exec> wall_id_;
-  Array<float, Exec> wall_record_, wall_rate_;
+  Array<float, Exec> wall_record_;
+  Array<float, Exec> wall_rate_;  ///< by slot: d D/dt of `dynamic` walls (1/s); what others hand back (sph.wall.volume)
   Array<Vec3f, Exec> wall_normal_;   ///< into the water; 0: unknown. Kept, as depths are, where walls move
   Array<float, Exec> wall_depth_;    ///< m below the surface
   Array<float, Exec> wall_surface_;  ///< nx ny nz depth (m), 4 each, per cluster

@@ -18,7 +18,7 @@ struct RecordPacker {
   const float* mass_share;  // null: 1
   bool cavitates;
   float* record;
-  bool keeps_pressure;  // that of the record stays
+  bool keeps_pressure = false;  // that of the record stays
 
   GDESP_HD void operator()(Index slot, const FixedPosition& p, const Vec3f& v, float D) const {
     const Index c = slot / exec::cluster_size;

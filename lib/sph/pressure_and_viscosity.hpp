@@ -18,8 +18,7 @@
 // @eq sph.continuity
 //   D rho_i/Dt = rho_i sum_j V_j v_ij . grad W_ij (`accurate`);  sum_j m v_ij . grad W_ij (`paper`, eq. 3).
 //   rho [kg/m3]; V [m3]; v_ij = v_i - v_j [m/s]. Source: Monaghan (2005), as sph.momentum.
-//   Extrapolated walls count (2 - eps_i) times, eps: porosity: at 2 a wall moves as the mirror of the water and does no work;
-//   at 1, as without grains, it works on water in pores without end (docs/decisions/0048).
+//   Extrapolated walls hand sph.wall.volume back besides.
 // @eq sph.density-diffusion
 //   delta h c sum_j 2 minmod(rho_j - rho_i, rho_j - rho_i - rho^H_ij) (r_ji . grad_i W)/r^2 V_j, rho^H_ij = rho0 g.(r_j - r_i)/c^2, so
 //   that hydrostatics stay still; a rate of density [kg/(m3 s)]. minmod(a, b): the smaller in size, 0 where signs differ. delta [1]; h [m];

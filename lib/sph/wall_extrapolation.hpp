@@ -45,10 +45,7 @@ GDESP_HD inline float no_slip_share(float depth, float reach) {
 template <class Real>
 GDESP_HD inline Real add_wall_pair(float inverse_support, const Real& rx, const Real& ry, const Real& rz,
                                    const Real& A_f, WallSums<Real>& sums) {
-  using real::max;
-  using real::sqrt;
-  const Real t = max(Real(0.0f), Real(1.0f) - sqrt(rx * rx + ry * ry + rz * rz) * Real(inverse_support));
-  const Real w = wendland_shape(t);
+  const Real w = wendland_at(inverse_support, rx, ry, rz);
   sums.weight += w;
   sums.pressure += w * A_f;
   sums.rx += w * rx;

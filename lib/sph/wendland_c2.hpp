@@ -14,6 +14,7 @@
 #include <cmath>
 
 #include "core/host_device.hpp"
+#include "core/real.hpp"
 #include "core/wendland.hpp"
 
 namespace gdesp::sph {
@@ -25,6 +26,14 @@ template <class Real>
 GDESP_HD inline Real wendland_shape(const Real& t) {
   const Real t2 = t * t;
   return t2 * t2 * (Real(5.0f) - Real(4.0f) * t);
+}
+
+/// W / alpha at r (m); inverse_support = 1/(2h).
+template <class Real>
+GDESP_HD inline Real wendland_at(float inverse_support, const Real& rx, const Real& ry, const Real& rz) {
+  using real::max;
+  using real::sqrt;
+  return wendland_shape(max(Real(0.0f), Real(1.0f) - sqrt(rx * rx + ry * ry + rz * rz) * Real(inverse_support)));
 }
 
 /// -(dW/dr)/r * h^2/(5 alpha) at t; not negative.

@@ -2,6 +2,7 @@
 // Scenes for tests, made without files: a box tank with three layers of wall particles, blocks of water.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "particles/surface_rows.hpp"
@@ -22,6 +23,16 @@ inline void fill_block(FluidTable& fluid, const Vec3d& low, const Vec3d& high, d
             {low.x + (i + 0.5) * dp, two_dimensional ? 0.0 : low.y + (j + 0.5) * dp, low.z + (k + 0.5) * dp});
 }
 
+/// Wall particle at r outside [low, high], with its normal and its depth below the nearest point of that box (open at the top).
+inline void add_tank_wall(BoundaryTable& walls, const Vec3d& r, const Vec3d& low, const Vec3d& high) {
+  const Vec3d to_surface{std::clamp(r.x, low.x, high.x) - r.x, std::clamp(r.y, low.y, high.y) - r.y,
+                         std::max(r.z, low.z) - r.z};
+  const double depth = norm(to_surface);
+  walls.position.push_back(r);
+  walls.normal.push_back(static_cast<Vec3f>(to_surface * (1.0 / depth)));
+  walls.depth.push_back(static_cast<float>(depth));
+}
+
 /// Wall particles in three layers around the inside [low, high] of a tank that is open at the top.
 inline void wall_tank(BoundaryTable& walls, const Vec3d& low, const Vec3d& high, double dp, bool two_dimensional) {
   const auto count = [&](double a, double b) { return static_cast<int>(std::lround((b - a) / dp)); };
@@ -32,8 +43,9 @@ inline void wall_tank(BoundaryTable& walls, const Vec3d& low, const Vec3d& high,
       for (int k = -layers; k < nz; ++k) {
         const bool inside = i >= 0 && i < nx && j >= 0 && j < ny && k >= 0;
         if (inside) continue;
-        walls.position.push_back(
-            {low.x + (i + 0.5) * dp, two_dimensional ? 0.0 : low.y + (j + 0.5) * dp, low.z + (k + 0.5) * dp});
+        add_tank_wall(walls,
+                      {low.x + (i + 0.5) * dp, two_dimensional ? 0.0 : low.y + (j + 0.5) * dp, low.z + (k + 0.5) * dp},
+                      low, high);
       }
 }
 

@@ -50,6 +50,10 @@ struct DeviceLanes {
     a += __shfl_xor_sync(half_mask, a, 2);
     if ((lane & 3) == 0) p[lane >> 2] = a;
   }
+  __device__ Real sum_i(Real a) const {
+    a += __shfl_xor_sync(half_mask, a, 1);
+    return a + __shfl_xor_sync(half_mask, a, 2);
+  }
   __device__ void store_max_i(float* p, Real a) const {
     a = fmaxf(a, __shfl_xor_sync(half_mask, a, 1));
     a = fmaxf(a, __shfl_xor_sync(half_mask, a, 2));

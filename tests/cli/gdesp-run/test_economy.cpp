@@ -6,6 +6,7 @@
 #include <random>
 
 #include "../../support/surfaces.hpp"
+#include "../../support/tank.hpp"
 #include "case_to_input.hpp"
 #include "core/error.hpp"
 #include "scene_economy.hpp"
@@ -117,7 +118,7 @@ TEST(NeedlessWidth, half_the_tank_gives_the_answer_of_the_whole) {
           const Vec3d r{(i + 0.5) * dp, (j + 0.5) * dp, (k + 0.5) * dp};
           const bool inside = i >= 0 && i < nx && j >= low && j < ny && k >= 0;
           if (!inside)
-            in.boundary.position.push_back(r);
+            test::add_tank_wall(in.boundary, r, {0.0, low * dp, 0.0}, {nx * dp, ny * dp, 1.0});
           else if (r.x < 0.4 && r.z < 0.4 && std::abs(r.y) < 0.4)
             in.fluid.position.push_back(r);
         }

@@ -111,6 +111,57 @@ TEST(FluidPasses, conserve_linear_momentum) {
   EXPECT_LT(norm(sum), 1e-6 * total);
 }
 
+/// Water in a corner of a tank, under pressure everywhere, without weight, viscosity and diffusion.
+SimulationInput pressed_corner(unsigned seed) {
+  SimulationInput input = jittered_drop(seed, true);
+  input.fluid_parameters.gravity = {};
+  input.fluid_parameters.viscosity = Viscosity::none;
+  input.fluid_parameters.density_diffusion = 0.0;
+  for (std::size_t i = 0; i < input.fluid.position.size(); ++i) {
+    input.fluid.position[i] -= Vec3d{0.04, 0.0, 0.0};
+    input.fluid.density[i] = static_cast<float>(1010.0 + 40.0 * input.fluid.position[i].z);
+  }
+  return input;
+}
+
+/// W: what pressure gives to the motion of the water, and what its compression takes up.
+struct Powers {
+  double given = 0.0, stored = 0.0;
+};
+
+Powers powers(const SimulationInput& input) {
+  auto fluid = system_of(input);
+  fluid.extrapolate_walls();
+  fluid.combined_pass();
+  const auto rates = test::rates_by_id(fluid);
+  const double c2 = input.fluid_parameters.sound_speed * input.fluid_parameters.sound_speed;
+  Powers sum;
+  for (std::size_t i = 0; i < rates.size(); ++i) {
+    const double share = static_cast<double>(input.fluid.density[i]) / 1000.0, A = (std::pow(share, 7.0) - 1.0) / 7.0;
+    sum.given += dot(rates[i].acceleration, static_cast<Vec3d>(input.fluid.velocity[i]));
+    sum.stored += c2 * A / (share * share) * rates[i].dD;
+  }
+  return sum;
+}
+
+/// What walls give that nothing takes up, over what they and the water give.
+double unpaid(const SimulationInput& input) {
+  const Powers p = powers(input);
+  EXPECT_GT(std::abs(p.given), 1.0);
+  return std::abs(p.given + p.stored) / std::abs(p.given);
+}
+
+// In a corner, without normals, all that the walls' pressure does is paid for; with them, over a floor, for water that does not slide.
+TEST(FluidPasses, walls_neither_give_nor_take_energy) {
+  SimulationInput input = pressed_corner(3);
+  input.boundary.normal.clear();
+  EXPECT_LT(unpaid(input), 5e-4);
+  input = pressed_corner(5);
+  for (Vec3d& r : input.fluid.position) r += Vec3d{0.08, 0.08, 0.0};
+  for (Vec3f& v : input.fluid.velocity) v.x = v.y = 0.0f;
+  EXPECT_LT(unpaid(input), 5e-4);
+}
+
 TEST(FluidPasses, are_the_same_for_any_number_of_threads) {
   const SimulationInput input = jittered_drop(5, true);
   std::vector<std::vector<test::Rates>> results;

@@ -15,16 +15,6 @@ SimulationInput small_tank() {
   return input;
 }
 
-/// Normals and depths of the tank's wall particles.
-void give_normals(BoundaryTable& walls, double width) {
-  for (const Vec3d& r : walls.position) {
-    const double left = r.x, right = width - r.x, bottom = r.z;  // below 0: that far inside
-    const double least = std::min({left, right, bottom});
-    walls.normal.push_back(least == left ? Vec3f{1, 0, 0} : (least == right ? Vec3f{-1, 0, 0} : Vec3f{0, 0, 1}));
-    walls.depth.push_back(static_cast<float>(-least));
-  }
-}
-
 std::unique_ptr<Simulation> start(const SimulationInput& input) { return make_simulation(input, "cpu"); }
 
 std::string state_of(Simulation& simulation) {
@@ -80,7 +70,6 @@ TEST(FluidSafety, caution_survives_a_checkpoint) {
 
 TEST(FluidSafety, who_is_deepest_inside_a_wall) {
   SimulationInput input = small_tank();
-  give_normals(input.boundary, 0.2);
   input.fluid.velocity.assign(input.fluid.position.size(), Vec3f{});
   const auto sound = start(input);
   sound->step(1.0);

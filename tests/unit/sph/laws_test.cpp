@@ -7,6 +7,7 @@
 // @eq sph.momentum
 // @eq sph.continuity
 // @eq sph.wall.extrapolation
+// @eq sph.wall.volume
 // @eq sph.wall.guard
 // @eq sph.surface-rows
 // @eq sph.cavitation
@@ -16,6 +17,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "exec/lanes.hpp"
 #include "particles/surface_rows.hpp"
@@ -26,6 +28,7 @@
 #include "sph/tait.hpp"
 #include "sph/wall_extrapolation.hpp"
 #include "sph/wall_guard.hpp"
+#include "sph/wall_volume.hpp"
 #include "sph/wendland_c2.hpp"
 
 namespace gdesp::sph {
@@ -324,6 +327,32 @@ TEST(WallPair, a_wall_above_still_water_neither_pushes_nor_pulls) {
 }
 
 // @eq sph.wall.no-slip
+// Water around a wall particle at the origin, of which the surface above has the normal z.
+WallVolumeSums<double> around_wall(const Vec3d& velocity, double porosity) {
+  FluidPairLaw law{};
+  law.inverse_support = 0.25f;
+  law.slope = 2.0f;
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> u(-2.0, 2.0);
+  WallVolumeSums<double> sums;
+  for (int k = 0; k < 20; ++k) {
+    const Vec3d at{u(random), u(random), 1.0 + 0.5 * u(random)};
+    add_wall_volume<double>(law, {-at.x, -at.y, -at.z}, {-velocity.x, -velocity.y, -velocity.z}, 1.1, porosity, sums);
+  }
+  return sums;
+}
+
+TEST(WallVolume, is_that_of_water_that_comes_near_and_not_of_water_that_slides_by) {
+  const double up[3] = {0.0, 0.0, 1.0}, unknown[3] = {0.0, 0.0, 0.0};
+  const auto sliding = around_wall({3.0, -2.0, 0.0}, 1.0), coming = around_wall({0.0, 0.0, -1.0}, 1.0);
+  EXPECT_GT(std::abs(wall_volume(sliding, unknown, 0.9)), 0.01);
+  EXPECT_NEAR(wall_volume(sliding, up, 0.9), 0.0, 1e-6);
+  EXPECT_GT(wall_volume(coming, up, 0.9), 0.1);  // compressed
+  EXPECT_NEAR(wall_volume(coming, up, 0.9), 0.9 * coming.compression / coming.weight, 1e-6);
+  // Among grains all of it counts.
+  EXPECT_NEAR(wall_volume(around_wall({3.0, -2.0, 0.0}, 0.6), up, 0.9), wall_volume(sliding, unknown, 0.9), 1e-6);
+}
+
 TEST(WallExtrapolation, a_no_slip_wall_continues_the_profile) {
   // A wall particle half a spacing deep and water that is 0.7 spacings high in the mean: linear through zero at the surface.
   const float share = no_slip_share(0.5f, 0.5f + 0.7f), slope = 3.0f;

@@ -256,12 +256,6 @@ TEST(Coupling, a_bed_under_still_water_comes_to_rest) {
   input.fluid_parameters.density_diffusion = 0.1;
   test::fill_block(input.fluid, {0, 0, 0}, {size.x, size.y, depth}, dp, false);
   test::rest_rows(input, depth);
-  for (const Vec3d& r : input.boundary.position) {
-    const Vec3d surface{std::clamp(r.x, 0.0, size.x), std::clamp(r.y, 0.0, size.y), std::max(r.z, 0.0)};
-    const double deep = norm(surface - r);
-    input.boundary.normal.push_back(static_cast<Vec3f>((surface - r) * (1.0 / deep)));
-    input.boundary.depth.push_back(static_cast<float>(deep));
-  }
   for (int z = 0; z < 6; ++z)
     for (int y = 0; y < 7 - z % 2; ++y)
       for (int x = 0; x < 11 - z % 2; ++x) {

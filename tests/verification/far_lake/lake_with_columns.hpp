@@ -23,8 +23,11 @@ inline void add_vertical_wall(SimulationInput& input, double x, double side, dou
   constexpr int layers = 4;
   input.boundary.body.resize(input.boundary.position.size(), 0);
   for (int i = 0; i < layers; ++i)
-    for (int k = 0; k < static_cast<int>(std::lround(height / dp)); ++k)
+    for (int k = 0; k < static_cast<int>(std::lround(height / dp)); ++k) {
       input.boundary.position.push_back({x + side * (i + 0.5) * dp, 0.0, (k + 0.5) * dp});
+      input.boundary.normal.push_back({static_cast<float>(-side), 0.0f, 0.0f});
+      input.boundary.depth.push_back(static_cast<float>((i + 0.5) * dp));
+    }
   input.boundary.body.resize(input.boundary.position.size(), static_cast<std::int32_t>(input.bodies.size() + 1));
 }
 

@@ -21,7 +21,8 @@ LakeScene with_columns(double particles, double columns) {
   return scene;
 }
 
-// For 23 sqrt(H/g): the wall stays where it is to 1.5 % of the depth, a seventh of a spacing, and the columns' level to 0.5 %.
+// For 23 sqrt(H/g): the wall stays where it is to 1 % of the depth, a tenth of a spacing (`verlet`: a fifth, it finds another place to rest),
+// and the columns' level to 0.5 %.
 TEST(FarLakeBehindParticles, stays_at_rest) {
   for (const TimeScheme scheme : {TimeScheme::split, TimeScheme::verlet}) {
     const LakeScene scene = with_columns(3.0, 6.0);
@@ -35,7 +36,7 @@ TEST(FarLakeBehindParticles, stays_at_rest) {
       highest = std::max(highest, run->diagnostics().far_lake_highest);
     }
     EXPECT_GT(farthest, 0.0);
-    EXPECT_LT(farthest, 0.015 * scene.depth);
+    EXPECT_LT(farthest, (scheme == TimeScheme::split ? 0.01 : 0.022) * scene.depth);
     EXPECT_LT(highest, 0.005);
     const FarLakeTable surface = run->far_lakes()[0];
     EXPECT_NEAR(surface.level.back(), scene.depth, 0.005 * scene.depth);
@@ -204,8 +205,11 @@ TEST(FarLakeBehindParticles, stays_at_rest_in_space) {
   input.boundary.body.assign(input.boundary.position.size(), 0);
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 10; ++j)
-      for (int k = 0; k < 20; ++k)
+      for (int k = 0; k < 20; ++k) {
         input.boundary.position.push_back({length + (i + 0.5) * dp, (j + 0.5) * dp, (k + 0.5) * dp});
+        input.boundary.normal.push_back({-1.0f, 0.0f, 0.0f});
+        input.boundary.depth.push_back(static_cast<float>((i + 0.5) * dp));
+      }
   input.boundary.body.resize(input.boundary.position.size(), 1);
   Body body;
   body.kind = BodyKind::far_lake;

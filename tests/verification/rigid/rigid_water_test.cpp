@@ -24,6 +24,13 @@ void add_floating(SimulationInput& input, const Vec3d& lo, const Vec3d& hi, doub
       if (std::min({i, k, nx - 1 - i, nz - 1 - k}) >= 3) continue;
       input.boundary.position.push_back({lo.x + (i + 0.5) * dp, 0.0, lo.z + (k + 0.5) * dp});
       input.boundary.body.push_back(number);
+      const int left = i, right = nx - 1 - i, below = k, above = nz - 1 - k,
+                least = std::min({left, right, below, above});
+      const Vec3f normal = least == below   ? Vec3f{0, 0, -1}
+                           : least == above ? Vec3f{0, 0, 1}
+                                            : Vec3f{least == left ? -1.0f : 1.0f, 0, 0};
+      input.boundary.normal.push_back(normal);
+      input.boundary.depth.push_back(static_cast<float>((least + 0.5) * dp));
     }
   }
   add_box(input.walls, number, {lo.x, -0.5, lo.z}, {hi.x, 0.5, hi.z});
