@@ -49,7 +49,7 @@ void add_one_tank(const WallPart& tank, const SceneParts& parts, const Lattice& 
   for (const double x : ticks[0]) {
     for (const double y : ticks[1]) {
       for (const double z : ticks[2]) {
-        const Vec3d p{x, y, z};
+        const Vec3d p{x, y, z + lattice.shift_at(z)};
         Vec3d inward;
         bool no_slip = false;  // what stands behind planes of symmetry alone lets the fluid slip
         for (int a = 0; a < 3; ++a) {

@@ -205,12 +205,16 @@ std::vector<double> column_tops(const FillSpace& space, const std::vector<Vec3d>
   return top;
 }
 
-/// Hydrostatic pressure (Pa) of water that has left its lattice column, under the highest water there was in the column where it is now, or
-/// beside it.
+/// Hydrostatic pressure (Pa) under the surface that all the water has in common; without one, of water that has left its lattice column, under
+/// the highest water there was in the column where it is now, or beside it.
 void set_start_pressure(const Layout& layout, const FillSpace& space, const std::vector<double>& top,
                         FluidTable& fluid) {
   const double half = 0.5 * layout.lattice.dp, weight = -layout.scene.gravity.z * layout.scene.fluid.density;
   for (const Vec3d& p : fluid.position) {
+    if (layout.surface) {
+      fluid.pressure.push_back(static_cast<float>(weight * std::max(0.0, *layout.surface - p.z)));
+      continue;
+    }
     double level = top[column_of(space, p, 0, 0)];
     for (int i = -1; i <= 1 && level < p.z - half; ++i) {
       for (int j = -1; j <= 1; ++j) level = std::max(level, top[column_of(space, p, i, j)]);

@@ -53,6 +53,7 @@ struct Layout {
   SceneParts parts;
   Scene scene;  ///< in case coordinates
   Vec3d offset;
+  std::optional<double> surface;  ///< m, free and still, that all the water has in common
   Lattice lattice;
   Box domain;          ///< case coordinates
   WallSurfaces walls;  ///< exposed surface of everything at rest

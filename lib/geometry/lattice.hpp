@@ -18,8 +18,8 @@ struct Lattice {
   Vec3d origin;     ///< m, lower corner of cell (0, 0, 0)
   double dp = 1.0;  ///< m
   int dimensions = 3;
-  std::vector<double> row_shift =
-      {};  ///< dp, upwards: [k] of row k below the plane z = origin.z (sph.surface-rows); others 0
+  std::vector<double> row_shift = {};  ///< dp, upwards: [k] of row k below the surface (sph.surface-rows); others 0
+  std::int32_t surface = 0;            ///< index of the row above the surface, the plane z = origin.z + surface dp
 
   double coordinate(int axis, std::int32_t i) const {
     return dimensions == 2 && axis == 1 ? 0.0 : origin[axis] + (i + 0.5) * dp;
@@ -27,9 +27,14 @@ struct Lattice {
   Vec3d point(const Index3& i) const { return {coordinate(0, i.x), coordinate(1, i.y), coordinate(2, i.z)}; }
   /// m, upwards: where the particles of row k stand, from their lattice points.
   double shift(std::int32_t k) const {
-    const std::int64_t row = -1 - static_cast<std::int64_t>(k);
+    const std::int64_t row = static_cast<std::int64_t>(surface) - 1 - k;
     return row >= 0 && row < static_cast<std::int64_t>(row_shift.size()) ? row_shift[static_cast<std::size_t>(row)] * dp
                                                                          : 0.0;
+  }
+  /// m, upwards: of the row at height z; 0 where none is.
+  double shift_at(double z) const {
+    const std::int32_t k = nearest(2, z);
+    return std::abs(z - coordinate(2, k)) < 1e-6 * dp ? shift(k) : 0.0;
   }
   /// Where the particle of a lattice point stands.
   Vec3d place(const Index3& i) const { return point(i) + Vec3d{0.0, 0.0, shift(i.z)}; }

@@ -2,6 +2,7 @@
 // Where a scene's case lies: offset, lattice, domain.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/error.hpp"
 #include "geometry/body_builder.hpp"
@@ -80,7 +81,22 @@ bool rests_on_its_rows(const Scene& scene) {
          scene.gravity.z < 0.0;
 }
 
-Lattice choose_lattice(const SceneParts& parts, const Scene& scene, const Box& inner) {
+/// Still surface (m) that all the water has in common, where it is free.
+std::optional<double> common_surface(const SceneParts& parts, const Scene& scene) {
+  std::optional<double> surface;
+  for (const FluidFill& f : scene.fluid.fill) {
+    if (f.kind == "mesh") return std::nullopt;
+    const double top = f.kind == "level" ? f.level : f.box->upper.z;
+    if (surface && std::abs(top - *surface) > 1e-6 * scene.dp) return std::nullopt;
+    surface = top;
+  }
+  const bool closed = std::any_of(parts.walls.begin(), parts.walls.end(), [&](const WallPart& w) {
+    return w.kind == WallPart::Kind::tank && !is_open(w, "top") && surface && w.tank.upper.z < *surface + scene.dp;
+  });
+  return closed ? std::nullopt : surface;
+}
+
+Lattice choose_lattice(const SceneParts& parts, const Scene& scene, const Box& inner, std::optional<double> surface) {
   Lattice lattice;
   lattice.dp = scene.dp;
   lattice.dimensions = scene.dimensions;
@@ -97,8 +113,14 @@ Lattice choose_lattice(const SceneParts& parts, const Scene& scene, const Box& i
     if (f.kind != "level") continue;
     lattice.origin.z = f.level;
     anchored = true;
-    if (rests_on_its_rows(scene))
+    if (!surface) surface = f.level;  // of several lakes the first one's
+  }
+  if (surface && rests_on_its_rows(scene)) {
+    const double rows = (*surface - lattice.origin.z) / scene.dp;
+    if (std::abs(rows - std::round(rows)) < 1e-6) {
+      lattice.surface = static_cast<std::int32_t>(std::lround(rows));
       lattice.row_shift = surface_row_shifts(scene.numerics.smoothing_ratio, scene.dimensions);
+    }
   }
   if (scene.dimensions == 2) lattice.origin.y = -0.5 * scene.dp;
   return lattice;
@@ -153,7 +175,8 @@ Layout lay_out(const Scene& scene, Notes& notes) {
   out.scene = shifted(scene, out.offset);
   const Box inner = inner_domain(out.parts, out.scene);
   out.domain = outer_domain(inner, out.scene);
-  out.lattice = choose_lattice(out.parts, out.scene, inner);
+  out.surface = common_surface(out.parts, out.scene);
+  out.lattice = choose_lattice(out.parts, out.scene, inner, out.surface);
   if (!out.parts.terrain.empty()) {
     Box keep = out.domain;
     keep.lower.z = -1e300;

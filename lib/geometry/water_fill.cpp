@@ -61,8 +61,8 @@ std::vector<Vec3d> lattice_points(const ColumnIntervals& inside, const FillSpace
             std::max(low, s.lattice.first_at_or_above(2, std::max(inside.interval[k].lower, s.domain.lower.z)));
         for (std::int32_t m = k0; m <= high && s.lattice.coordinate(2, m) < inside.interval[k].upper; ++m) {
           if (s.lattice.coordinate(2, m) < inside.interval[k].lower) continue;
-          const Vec3d p = s.lattice.place({s.columns.i0 + i, s.columns.j0 + j, m});
-          if (is_clear(p, parts, s.lattice)) out.push_back(p);
+          const Index3 at{s.columns.i0 + i, s.columns.j0 + j, m};
+          if (is_clear(s.lattice.point(at), parts, s.lattice)) out.push_back(s.lattice.place(at));
         }
       }
     }
@@ -342,7 +342,8 @@ std::vector<Vec3d> box_points(const Box& box, const FillSpace& s, const ScenePar
   std::vector<Vec3d> out;
   fitted_lattice(box, nearest_counts(box, s.lattice.dp, s.lattice.dimensions), s.lattice.dimensions,
                  [&](const Vec3d& p) {
-                   if (!in_solid(p, s) && is_clear(p, parts, s.lattice)) out.push_back(p);
+                   if (in_solid(p, s) || !is_clear(p, parts, s.lattice)) return;
+                   out.push_back(p + Vec3d{0.0, 0.0, s.lattice.shift_at(p.z)});
                  });
   return out;
 }

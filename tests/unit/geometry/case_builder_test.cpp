@@ -197,6 +197,49 @@ TEST(CaseBuilder, RowsOfALakeStandWhereTheyRest) {
     ASSERT_NEAR(std::remainder((fill.level - p.z) / s.dp - 0.5, 1.0), 0.0, 1e-9);
 }
 
+/// Heights of the particles, from the top down.
+std::vector<double> rows_of(const std::vector<Vec3d>& particles) {
+  std::set<double, std::greater<>> rows;
+  for (const Vec3d& p : particles) rows.insert(std::round(1e9 * p.z) / 1e9);
+  return {rows.begin(), rows.end()};
+}
+
+// A tank and a box of water in it: rows and pressures as those of a lake, the walls of the tank too, and as many particles.
+TEST(CaseBuilder, RowsOfATankStandWhereTheyRest) {
+  const Scene s = tank_scene(0.02);
+  BuildReport report;
+  const Case c = build_case(s, report);
+  const std::vector<double> shift = surface_row_shifts(s.numerics.smoothing_ratio, 3), rows = rows_of(c.fluid.position);
+  ASSERT_EQ(rows.size(), 10u);
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_NEAR(rows[k], 0.2 + (shift[k] - static_cast<double>(k) - 0.5) * s.dp, 1e-8);
+  const std::vector<double> walls = rows_of(c.boundary.position);
+  for (const double z : rows) EXPECT_TRUE(std::count(walls.begin(), walls.end(), z)) << z;
+  ASSERT_EQ(c.fluid.pressure.size(), c.fluid.position.size());
+  for (std::size_t i = 0; i < c.fluid.pressure.size(); ++i)
+    ASSERT_NEAR(c.fluid.pressure[i], 9810.0 * (0.2 - c.fluid.position[i].z), 0.01);
+}
+
+// On the lattice stays what has no surface in common, one between the rows, or none that is free.
+TEST(CaseBuilder, RowsStayOnTheLatticeWithoutAFreeSurface) {
+  const auto highest = [](const Scene& s) {
+    BuildReport report;
+    return rows_of(build_case(s, report).fluid.position).front();
+  };
+  Scene steps = tank_scene(0.02);
+  steps.fluid.fill[0].box = Box{{0, 0, 0}, {0.2, 0.2, 0.2}};
+  steps.fluid.fill.push_back(steps.fluid.fill[0]);
+  steps.fluid.fill[1].box = Box{{0.2, 0, 0}, {0.4, 0.2, 0.1}};
+  EXPECT_NEAR(highest(steps), 0.19, 1e-9);
+  Scene between = tank_scene(0.02);
+  between.fluid.fill[0].box->upper.z = 0.195;  // ten rows in it
+  EXPECT_NEAR(highest(between), 0.195 * 0.95, 1e-9);
+  Scene closed = tank_scene(0.02);
+  closed.walls[0].open.clear();
+  closed.walls[0].tank->upper.z = 0.2;
+  EXPECT_NEAR(highest(closed), 0.19, 1e-9);
+}
+
 // Depth and normal of terrain walls against the plane they come from.
 TEST(CaseBuilder, SlopeHasItsTrueDepthAndNormal) {
   const Folder folder;
