@@ -490,10 +490,14 @@ void FluidSystem<Exec>::lattice_share_pass(float* share) {
 template <class Exec>
 void FluidSystem<Exec>::find_walls() {
   if (!guarded_) return;
-  exec::pair_pass(exec_, "sph::wall_guard", awake_clusters(),
-                  chosen_clusters(awake_list(), FindWalls{static_cast<float>(0.5 / parameters_.dp), fluid_wall_.view(),
-                                                          record_.data(), wall_record_.data(), wall_surface_.data(),
-                                                          near_wall_.data()}));
+  const auto find = [&](const Array<float, Exec>& surface, Array<float, Exec>& near) {
+    exec::pair_pass(
+        exec_, "sph::wall_guard", awake_clusters(),
+        chosen_clusters(awake_list(), FindWalls{static_cast<float>(0.5 / parameters_.dp), fluid_wall_.view(),
+                                                record_.data(), wall_record_.data(), surface.data(), near.data()}));
+  };
+  find(wall_surface_, near_wall_);
+  if (walls_move_) find(surface_at_rest_, near_wall_at_rest_);
 }
 
 template <class Exec>

@@ -65,20 +65,6 @@ struct FillPores {
   }
 };
 
-// Surface rows of walls, four a cluster, from slots.
-struct SpreadSurface {
-  const Vec3f* normal;
-  const float* depth;
-  float* surface;
-  GDESP_HD void operator()(Index s) const {
-    float* r = surface + 16 * static_cast<std::int64_t>(s / exec::cluster_size) + s % exec::cluster_size;
-    r[0] = normal[s].x;
-    r[4] = normal[s].y;
-    r[8] = normal[s].z;
-    r[12] = depth[s];
-  }
-};
-
 struct SetOne {
   float* value;
   GDESP_HD void operator()(Index s) const { value[s] = 1.0f; }
@@ -129,8 +115,9 @@ FluidSystem<Exec>::FluidSystem(const Exec& exec, const Domain& domain, const Flu
       porosity_(exec), external_(exec), record_(exec), rate_(exec), wall_position_(exec), wall_start_(exec),
       wall_velocity_(exec), wall_body_(exec), wall_density_(exec), wall_friction_(exec), wall_id_(exec),
       wall_record_(exec), wall_rate_(exec), wall_normal_(exec), wall_depth_(exec), wall_surface_(exec),
-      near_wall_(exec), wall_ghost_(exec), spacing_(exec), near_surface_(exec), own_pressure_(exec), wall_bodies_(exec),
-      body_asked_(exec), body_sum_(exec), body_force_(exec), filling_(exec) {
+      surface_at_rest_(exec), near_wall_(exec), near_wall_at_rest_(exec), wall_ghost_(exec), spacing_(exec),
+      near_surface_(exec), own_pressure_(exec), wall_bodies_(exec), body_asked_(exec), body_sum_(exec),
+      body_force_(exec), filling_(exec) {
   start_fluid(fluid);
   start_walls(walls);
   sort_walls();
@@ -208,6 +195,7 @@ void FluidSystem<Exec>::sort_fluid() {
   rate_.resize_discard(4 * static_cast<std::size_t>(n));
   exec::parallel_for(exec_, "sort::gather", 4 * n, exec::CopyEach<float>{record_.data(), rate_.data()});
   if (guarded_) near_wall_.resize_discard(6 * static_cast<std::size_t>(n));
+  if (guarded_ && walls_move_) near_wall_at_rest_.resize_discard(6 * static_cast<std::size_t>(n));
   if (needs_spacing()) {
     spacing_.resize_discard(4 * static_cast<std::size_t>(n));
     near_surface_.resize_discard(static_cast<std::size_t>(n));
@@ -233,8 +221,8 @@ void FluidSystem<Exec>::sort_walls() {
     exec::permute(exec_, wall_normal_, wall_record_, source, n, Vec3f{});
     exec::permute(exec_, wall_depth_, wall_record_, source, n, 0.0f);
     wall_surface_.resize_discard(4 * static_cast<std::size_t>(n));
-    exec::parallel_for(exec_, "sort::gather", n,
-                       SpreadSurface{wall_normal_.data(), wall_depth_.data(), wall_surface_.data()});
+    if (walls_move_) surface_at_rest_.resize_discard(4 * static_cast<std::size_t>(n));
+    spread_surface();
   }
   if (no_slip_) {
     wall_ghost_.resize_discard(4 * static_cast<std::size_t>(n));

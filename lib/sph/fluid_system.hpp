@@ -159,6 +159,7 @@ class FluidSystem {
     a(position_, velocity_, density_, id_, mass_share_, porosity_, external_, record_, rate_);
     a(wall_position_, wall_start_, wall_velocity_, wall_body_, wall_density_, wall_friction_, wall_id_, wall_record_,
       wall_rate_, wall_bodies_, guarded_, wall_normal_, wall_depth_, wall_surface_, near_wall_);
+    a(surface_at_rest_, near_wall_at_rest_);
     a(wall_ghost_, spacing_, near_surface_, own_pressure_);
   }
 
@@ -168,6 +169,7 @@ class FluidSystem {
   void sort_fluid();
   void sort_walls();
   void pack_walls();
+  void spread_surface();
   void lattice_share_pass(float* share);  ///< V0 times particles a volume: water, walls
   void pack_all();
   void update_activity(double t, const Movers& movers);
@@ -218,12 +220,14 @@ class FluidSystem {
   Array<std::uint32_t, Exec> wall_id_;
   Array<float, Exec> wall_record_;
   Array<float, Exec> wall_rate_;  ///< by slot: d D/dt of `dynamic` walls (1/s); what others hand back (sph.wall.volume)
-  Array<Vec3f, Exec> wall_normal_;   ///< into the water; 0: unknown. Kept, as depths are, where walls move
-  Array<float, Exec> wall_depth_;    ///< m below the surface
-  Array<float, Exec> wall_surface_;  ///< nx ny nz depth (m), 4 each, per cluster
-  Array<float, Exec> near_wall_;     ///< of the water: six rows of 4 per cluster (sph/wall_guard.hpp)
-  bool guarded_ = false;             ///< some wall particle knows its normal
-  bool no_slip_ = false;             ///< some wall particle has friction, and water viscosity
+  Array<Vec3f, Exec> wall_normal_;        ///< into the water; 0: unknown. Kept, as depths are, where walls move
+  Array<float, Exec> wall_depth_;         ///< m below the surface
+  Array<float, Exec> wall_surface_;       ///< nx ny nz depth (m), 4 each, per cluster
+  Array<float, Exec> surface_at_rest_;    ///< the same without normals of bodies, where walls move
+  Array<float, Exec> near_wall_;          ///< of the water: six rows of 4 per cluster (sph/wall_guard.hpp)
+  Array<float, Exec> near_wall_at_rest_;  ///< the same of walls that do not move, where others do
+  bool guarded_ = false;                  ///< some wall particle knows its normal
+  bool no_slip_ = false;                  ///< some wall particle has friction, and water viscosity
   Array<float, Exec>
       wall_ghost_;  ///< vx vy vz of no-slip walls and, on the way, the water's reach (m), 4 each, per cluster
   Array<float, Exec> spacing_;       ///< of the water: -grad C and D (sph/particle_shifting.hpp), 4 each

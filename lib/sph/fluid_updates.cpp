@@ -27,20 +27,22 @@ struct KickDrift {
   FluidStateView state;
   RecordPacker packer;
   float dt, dt_position;
-  const float* near_wall;  // null: no guard
+  const float* near_wall;          // null: no guard
+  const float* near_wall_at_rest;  // null: no wall moves
   float sound_speed, dp;
   const float* spacing;  // null: no shifting
   const float* near_surface;
   float shift_strength;  // k h, m
   float fastest;         // m/s
-  GDESP_HD NearWall wall_at(Index s) const {
-    const float* w = near_wall + 24 * static_cast<std::int64_t>(s / exec::cluster_size) + s % exec::cluster_size;
+  GDESP_HD static NearWall wall_at(const float* near, Index s) {
+    const float* w = near + 24 * static_cast<std::int64_t>(s / exec::cluster_size) + s % exec::cluster_size;
     return {w[0], w[4], w[8], w[12], w[16], w[20]};
   }
   GDESP_HD void operator()(Index s) const {
     if (packer.id[s] != no_particle) {
       Vec3f v = state.velocity[s] + state.acceleration(s) * dt;
-      if (near_wall) v = guarded_velocity(v, wall_at(s), dt, sound_speed, dp);
+      if (near_wall) v = guarded_velocity(v, wall_at(near_wall, s), dt, sound_speed, dp);
+      if (near_wall_at_rest) v = guarded_velocity(v, wall_at(near_wall_at_rest, s), dt, sound_speed, dp);
       state.velocity[s] = v;
       Vec3f move = v * dt_position;
       if (spacing) {
@@ -197,6 +199,33 @@ struct MoveWalls {
   }
 };
 
+// Where each wall particle has its surface, as rows of four a cluster; normals turn with their body.
+struct SpreadSurface {
+  const Vec3f* normal;
+  const float* depth;
+  const std::int32_t* body;
+  const WallBodyState* bodies;  // null: as at the start
+  float* surface;
+  float* at_rest;  // without normals of bodies; null: none moves
+  GDESP_HD void operator()(Index s) const {
+    const std::int64_t row = 16 * static_cast<std::int64_t>(s / exec::cluster_size) + s % exec::cluster_size;
+    Vec3f n = normal[s];
+    if (bodies && body[s] > 0) {
+      const float* R = bodies[body[s] - 1].rotation;
+      n = {R[0] * n.x + R[1] * n.y + R[2] * n.z, R[3] * n.x + R[4] * n.y + R[5] * n.z,
+           R[6] * n.x + R[7] * n.y + R[8] * n.z};
+    }
+    write(surface + row, n, depth[s]);
+    if (at_rest) write(at_rest + row, body[s] > 0 ? Vec3f{} : n, depth[s]);
+  }
+  GDESP_HD static void write(float* r, const Vec3f& n, float depth) {
+    r[0] = n.x;
+    r[4] = n.y;
+    r[8] = n.z;
+    r[12] = depth;
+  }
+};
+
 struct PackWalls {
   Domain domain;
   const Vec3<std::int32_t>* cluster_tile;
@@ -272,6 +301,7 @@ void FluidSystem<Exec>::kick_drift(float dt, float dt_position, float fastest) {
       exec_, "sph::kick_drift", awake_slots(),
       chosen_slots(awake_list(),
                    KickDrift{state_view(), packing, dt, dt_position, guarded_ ? near_wall_.data() : nullptr,
+                             guarded_ && walls_move_ ? near_wall_at_rest_.data() : nullptr,
                              static_cast<float>(parameters_.sound_speed), static_cast<float>(parameters_.dp),
                              parameters_.shifting > 0.0 ? spacing_.data() : nullptr, near_surface_.data(),
                              static_cast<float>(parameters_.shifting * parameters_.h), fastest}));
@@ -338,7 +368,16 @@ void FluidSystem<Exec>::move_walls(const std::vector<WallBodyState>& bodies) {
   exec::parallel_for(exec_, "sph::move_walls", wall_set_.slots(),
                      MoveWalls{domain_, wall_body_.data(), wall_id_.data(), wall_start_.data(), wall_bodies_.data(),
                                wall_position_.data(), wall_velocity_.data()});
+  if (guarded_) spread_surface();
   pack_walls();
+}
+
+template <class Exec>
+void FluidSystem<Exec>::spread_surface() {
+  exec::parallel_for(exec_, "sph::wall_surface", wall_set_.slots(),
+                     SpreadSurface{wall_normal_.data(), wall_depth_.data(), wall_body_.data(),
+                                   wall_bodies_.size() > 0 ? wall_bodies_.data() : nullptr, wall_surface_.data(),
+                                   walls_move_ ? surface_at_rest_.data() : nullptr});
 }
 
 template FluidStateView FluidSystem<exec::CompiledBackend>::state_view();
@@ -350,6 +389,7 @@ template void FluidSystem<exec::CompiledBackend>::kick_drift(float, float, float
 template void FluidSystem<exec::CompiledBackend>::verlet_predict(float);
 template void FluidSystem<exec::CompiledBackend>::verlet_correct(float);
 template void FluidSystem<exec::CompiledBackend>::evolve_dynamic_walls(float);
+template void FluidSystem<exec::CompiledBackend>::spread_surface();
 template FluidExtremes FluidSystem<exec::CompiledBackend>::extremes();
 template FluidSums FluidSystem<exec::CompiledBackend>::sums();
 template void FluidSystem<exec::CompiledBackend>::pack_walls();
