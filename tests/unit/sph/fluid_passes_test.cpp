@@ -197,6 +197,35 @@ TEST(FluidPasses, gradient_of_a_linear_pressure_is_right_inside) {
   }
 }
 
+// A plate, normal z at the start, turned until its normal is x: water beside it is not inside.
+TEST(FluidSystem, normals_turn_with_their_body) {
+  const double dp = 0.02;
+  SimulationInput input = test::tank_input({0.4, 0.4, 0.4}, 0.2, dp, 3);
+  input.boundary = {};
+  for (int k = 0; k < 3; ++k)
+    for (int i = -4; i <= 4; ++i)
+      for (int j = -4; j <= 4; ++j) {
+        input.boundary.position.push_back({0.2 + i * dp, 0.2 + j * dp, 0.2 - (k + 0.5) * dp});
+        input.boundary.normal.push_back({0.0f, 0.0f, 1.0f});
+        input.boundary.depth.push_back(static_cast<float>((k + 0.5) * dp));
+        input.boundary.body.push_back(1);
+      }
+  input.fluid.position = {{0.2 + 0.4 * dp, 0.2, 0.2}};
+  auto fluid = system_of(input);
+  WallBodyState body;
+  body.centre_start = body.centre = {0.2, 0.2, 0.2};
+  const float quarter_turn[9] = {0, 0, 1, 0, 1, 0, -1, 0, 0};
+  std::copy(quarter_turn, quarter_turn + 9, body.rotation);
+  fluid.move_walls({body});
+  fluid.rebuild(0.0, 0.0, {}, 0.0);
+  fluid.find_walls();
+  EXPECT_EQ(fluid.deepest_in_wall().depth, 0.0f);
+  fluid.move_walls({WallBodyState{body.centre, body.centre}});  // back: the water is at its upper face
+  fluid.rebuild(0.0, 0.0, {}, 0.0);
+  fluid.find_walls();
+  EXPECT_LT(fluid.deepest_in_wall().depth, 0.1 * dp);
+}
+
 TEST(FluidSystem, survives_no_water_and_one_particle) {
   SimulationInput input = test::tank_input({0.2, 0.2, 0.2}, 0.2, 0.02, 3);
   EXPECT_EQ(system_of(input).particles(), 0);
