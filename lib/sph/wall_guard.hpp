@@ -12,6 +12,8 @@
 //   The first tenth of dp behind the surface is not pushed back: s is a mean over facets, and still water that touched a wall was thrown off it
 //   (8 % of sqrt(g H), single particles). In ordinary flow the bound lies near c/6 and never acts; it is what keeps a particle from slipping between wall
 //   particles on stair-stepped terrain (extrapolated pressures alone let some through). Source: own construction.
+//   Where bodies move, walls at rest are asked once more by themselves, after all walls together: between two walls normals cancel, and water
+//   that a body crushes against the bed went through it.
 #pragma once
 
 #include "core/host_device.hpp"
